@@ -27,7 +27,8 @@ needed=(g++ make cmake libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-t
         zlib1g-dev libpng-dev libwebp-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_python=(python3-dev pybind11-dev python3-numpy)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs pkg-config "${needed_for_python[@]}"
-                  python3-pytest python3-matplotlib python3-nbclient python3-ipykernel)
+                  python3-pytest python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick
+                  python3-openimageio)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_bench=(libbenchmark-dev libembree-dev)
@@ -62,10 +63,13 @@ install_missing() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# From Debian 14 on, the library of SPIRV-Tools has a package of its own.
+# From Debian 14 on, the library of SPIRV-Tools has a package of its own. That of ImageMagick's OpenEXR has its version in
+# its name: libmagickcore-6.q16-6-extra in Debian 12.
 install_for_tests() {
     install_missing "${needed_for_tests[@]}"
     compgen -G '/usr/lib/*/cmake/SPIRV-Tools' >/dev/null || install_missing spirv-tools-dev
+    compgen -G '/usr/lib/*/ImageMagick-*/modules-*/coders/exr.so' >/dev/null || ! command -v apt-cache >/dev/null ||
+        install_missing $(apt-cache search --names-only '^libmagickcore-[0-9]+\.q16-[0-9]+-extra$' | cut -d ' ' -f 1)
 }
 
 # Shows on a terminal how far a build is that writes to this log, until it is killed.

@@ -43,7 +43,11 @@ std::vector<float> errorsOf(const core::Image &a, const core::Image &b) {
 Difference differenceOf(const core::ImageComparison &comparison, const core::Image &reference,
                         const core::Image &test) {
     Difference difference;
-    difference.isIdentical = comparison.pixels.identical();
+    difference.isIdentical = comparison.identical();
+    if (comparison.alpha) {
+        difference.alphaMax = comparison.alpha->maxAbsoluteDifference;
+        difference.alphaMean = comparison.alpha->meanAbsoluteDifference;
+    }
     difference.differingPixels = comparison.pixels.differingPixelCount;
     difference.psnrDecibels = comparison.pixels.psnrDecibels();
     difference.ssim = comparison.ssim;
@@ -55,6 +59,10 @@ Difference differenceOf(const core::ImageComparison &comparison, const core::Ima
     difference.errorMap = errorsOf(reference, test);
     difference.json = core::jsonText(core::comparisonToJson(comparison, reference, test));
     return difference;
+}
+
+core::LoadedImage loadedOf(const Image::Content &content) {
+    return {content.image, content.encoding, content.alpha};
 }
 
 Device deviceOf(const nlohmann::ordered_json &json) {
@@ -86,15 +94,13 @@ Difference diff(const Image &reference, const Image &test) {
             throw Error(ErrorKind::Usage,
                         fmt::format("diff: found {} x {} and {} x {} pixels; allowed: images of one size",
                                     reference.width(), reference.height(), test.width(), test.height()));
-        const Image::Content &a = reference.content();
-        const Image::Content &b = test.content();
-        if (a.encoding == b.encoding)
-            return differenceOf(core::compareImages(a.image, b.image, a.encoding), a.image, b.image);
-        const bool isLinear = a.encoding == core::Encoding::Linear;
-        const core::Image shown = core::displayed(isLinear ? a.image : b.image);
-        const core::Image &first = isLinear ? shown : a.image;
-        const core::Image &second = isLinear ? b.image : shown;
-        return differenceOf(core::compareImages(first, second, core::Encoding::Display), first, second);
+        core::LoadedImage a = loadedOf(reference.content());
+        core::LoadedImage b = loadedOf(test.content());
+        if (a.encoding != b.encoding) {
+            core::LoadedImage &linear = a.encoding == core::Encoding::Linear ? a : b;
+            linear = core::asDisplayed(linear);
+        }
+        return differenceOf(core::compareImages(a, b), a.composite(), b.composite());
     });
 }
 

@@ -36,10 +36,12 @@ struct Difference {
     std::vector<float> ssimMap{};  ///< height x width: of the window around each pixel; NaN near the edges
     std::vector<float> errorMap{}; ///< height x width: the squared error of the pixel, as PSNR has it
     std::string json{};            ///< all metrics
+    double alphaMax = 0.0;         ///< largest difference of alpha; of opaque images 0
+    double alphaMean = 0.0;        ///< mean absolute difference of alpha
 };
 
 /// Compares images of one size; the first is the reference. Beside one that is display-encoded, a linear one is taken
-/// as a PNG of it would be. Throws Error{Usage} for two sizes.
+/// as a PNG of it would be. Colours are compared over black; an image without alpha is opaque. Throws Error{Usage} for two sizes.
 [[nodiscard]] HYALITE_API Difference diff(const Image &reference, const Image &test);
 
 /// Two renders of one scene.

@@ -103,11 +103,13 @@ template <class Work> auto watched(WatchObserver &observer, const Work &work) {
 struct Image::Content {
     core::Image image;
     core::Encoding encoding = core::Encoding::Linear;
+    std::vector<float> alpha{}; ///< empty: opaque
     // Of a render; else without pixels.
     core::Film film{core::Crop{}};
     std::vector<core::ViewFilm> views{};
     int wholeWidth = 0;
     int wholeHeight = 0;
+    std::optional<core::Projection> projection{};
     core::RenderSettings settings{};
     core::RayCounts rays{};
     double seconds = 0.0;

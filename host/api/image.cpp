@@ -6,6 +6,7 @@
 #include "host/film/film_file.h"
 #include "host/image/png.h"
 #include "host/jobs/film_picture.h"
+#include "host/jobs/projection.h"
 #include "host/report/render_report.h"
 #include "host/scene/names.h"
 
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -58,20 +58,27 @@ void requireName(const std::string &path) {
 
 bool isRendered(const Image::Content &content) { return !content.film.pixels.empty(); }
 
+core::FileOptions fileOptionsOf(const SaveOptions &options) {
+    return {toneOf(options.tone),
+            {options.half, core::chosenFrom(core::exrCompressionNames, options.compression, "compression")}};
+}
+
+core::Picture pictureOf(const Image::Content &content) {
+    core::Picture picture(content.image);
+    picture.alpha = content.alpha;
+    return picture;
+}
+
 /// The picture in a PNG.
 core::Drawing drawingOf(const Image::Content &content, core::ToneCurve tone) {
-    if (isRendered(content))
-        return core::drawFilm(content.film, content.settings, tone);
+    if (isRendered(content) && content.settings.integrator == core::Integrator::Cost)
+        return core::drawCost(content.film);
     core::Drawing drawing;
     drawing.width = content.image.width();
     drawing.height = content.image.height();
-    if (content.encoding == core::Encoding::Linear) {
-        drawing.rgb = core::toneMap(content.image, 0.0, tone);
-        return drawing;
-    }
-    for (const glm::vec3 &pixel : content.image.pixels())
-        for (glm::length_t channel = 0; channel < 3; ++channel)
-            drawing.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0f * pixel[channel])));
+    drawing.rgb = content.encoding == core::Encoding::Display
+                      ? core::pngLevels(content.image, content.alpha)
+                      : core::pngLevels(pictureOf(content), content.settings.exposureStops, tone);
     return drawing;
 }
 
@@ -80,6 +87,28 @@ std::vector<std::byte> pngOf(const Image::Content &content, core::ToneCurve tone
     std::vector<core::Attribute> attributes = core::attributesOf(content.provenance);
     attributes.emplace_back(core::pixelsAttribute, core::pixelHash(drawing.rgb));
     return core::encodePng(drawing.width, drawing.height, drawing.rgb, attributes);
+}
+
+std::vector<std::string> write(core::AtomicFile &file, core::ImageFormat format,
+                               const Image::Content &content, const core::FileOptions &options) {
+    if (isRendered(content)) {
+        core::FilmPicture picture{.film = content.film, .views = content.views};
+        picture.wholeWidth = content.wholeWidth;
+        picture.wholeHeight = content.wholeHeight;
+        picture.attributes = core::attributesOf(content.provenance);
+        picture.settings = content.settings;
+        picture.options = options;
+        picture.projection = content.projection;
+        return core::writeFilmPicture(file, format, picture);
+    }
+    if (format == core::ImageFormat::Png) {
+        file.write(pngOf(content, options.tone));
+        return {};
+    }
+    if (content.encoding == core::Encoding::Display)
+        throw Error(ErrorKind::Usage, fmt::format("save {}: found the numbers of a PNG; allowed: a .png file",
+                                                  file.path().string()));
+    return core::writeImage(file, format, pictureOf(content), 0.0, options);
 }
 
 } // namespace
@@ -93,6 +122,7 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
     content->views = std::move(views);
     content->wholeWidth = scene.loaded.scene.camera.width;
     content->wholeHeight = scene.loaded.scene.camera.height;
+    content->projection = core::projectionOf(scene.loaded.scene);
     content->rays = result.rays;
     content->seconds = result.timing.renderSeconds;
     const std::array<core::Crop, 1> whole{scene.crop};
@@ -112,18 +142,26 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
 
 Image::Image(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
-Image::Image(int width, int height, std::span<const float> pixels) {
+Image::Image(int width, int height, std::span<const float> pixels) : Image(width, height, pixels, {}) {}
+
+Image::Image(int width, int height, std::span<const float> pixels, std::span<const float> alpha) {
     constexpr std::size_t channels = 3;
     const auto side = [](int size) { return static_cast<std::size_t>(std::max(size, 0)); };
-    if (width < 1 || height < 1 || pixels.size() != side(width) * side(height) * channels)
+    const std::size_t pixelCount = side(width) * side(height);
+    if (pixelCount == 0 || pixels.size() != pixelCount * channels)
         throw Error(
             ErrorKind::Usage,
             fmt::format("image: found {} numbers for {} x {} pixels; allowed: 3 of each pixel, and at least "
                         "one pixel",
                         pixels.size(), width, height));
+    if (!alpha.empty() && alpha.size() != pixelCount)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("alpha: found {} numbers for {} x {} pixels; allowed: one of each",
+                                alpha.size(), width, height));
     auto content = std::make_shared<Content>();
     content->image = core::Image(width, height);
     std::memcpy(content->image.pixels().data(), pixels.data(), pixels.size_bytes());
+    content->alpha.assign(alpha.begin(), alpha.end());
     content_ = std::move(content);
 }
 
@@ -134,6 +172,7 @@ Image Image::load(const std::string &path) {
         auto content = std::make_shared<Content>();
         content->image = std::move(loaded.image);
         content->encoding = loaded.encoding;
+        content->alpha = std::move(loaded.alpha);
         return Image(std::move(content));
     });
 }
@@ -146,6 +185,8 @@ std::span<const float> Image::pixels() const noexcept {
     const std::vector<glm::vec3> &pixels = content_->image.pixels();
     return {&pixels.data()->x, 3 * pixels.size()};
 }
+
+std::span<const float> Image::alpha() const noexcept { return content_->alpha; }
 
 std::span<const float> Image::variance() const {
     makeFigures(*content_);
@@ -169,30 +210,24 @@ RayCounts Image::rays() const noexcept {
 std::string Image::provenance() const { return core::jsonText(content_->provenance); }
 
 void Image::save(const std::string &path, const std::string &tone) const {
-    withThreads([&] {
+    SaveOptions options;
+    options.tone = tone;
+    save(path, options);
+}
+
+void Image::save(const std::string &path, const SaveOptions &options) const {
+    const std::vector<std::string> losses = withThreads([&] {
         requireName(path);
-        const core::ToneCurve curve = toneOf(tone);
+        const core::FileOptions ofFile = fileOptionsOf(options);
         const core::ImageFormat format = core::imageFormatOf(path);
         core::AtomicFile file(path);
-        if (isRendered(*content_)) {
-            core::FilmPicture picture{.film = content_->film, .views = content_->views};
-            picture.wholeWidth = content_->wholeWidth;
-            picture.wholeHeight = content_->wholeHeight;
-            picture.attributes = core::attributesOf(content_->provenance);
-            picture.settings = content_->settings;
-            picture.tone = curve;
-            core::writeFilmPicture(file, format, picture);
-        } else if (format == core::ImageFormat::Png) {
-            file.write(pngOf(*content_, curve));
-        } else if (content_->encoding == core::Encoding::Display) {
-            throw Error(ErrorKind::Usage,
-                        fmt::format("save {}: found the numbers of a PNG; allowed: a .png file", path));
-        } else {
-            core::writeImage(file, format, content_->image, 0.0, curve);
-        }
+        std::vector<std::string> lost = write(file, format, *content_, ofFile);
         file.commit();
-        return 0;
+        return lost;
     });
+    if (options.warning)
+        for (const std::string &loss : losses)
+            options.warning(fmt::format("{}: {}", path, loss));
 }
 
 std::string Image::png(const std::string &tone) const {

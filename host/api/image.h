@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +19,16 @@ struct Layer {
     std::string name;
     std::string channels;          ///< a letter for each value of a pixel: "RGB", "XYZ", "Z"
     std::span<const float> values; ///< height x width x channels; it lives as long as the image
+};
+
+/// How an image is stored.
+struct SaveOptions {
+    std::string tone = "gamma"; ///< curve of a PNG: "gamma", "srgb", "aces" or "agx"
+    bool half = false;          ///< colours of an EXR as 16-bit floats, at most 65504
+    /// Of an EXR, by OpenEXR's names: "none", "rle", "zips", "zip" or "piz", which keep every bit; or "pxr24", "b44",
+    /// "b44a", "dwaa" or "dwab", which are lossy.
+    std::string compression = "zip";
+    std::function<void(const std::string &text)> warning{}; ///< gets what the file has lost, a sentence each
 };
 
 /// Rays that were traced for an image.
@@ -35,7 +46,9 @@ class HYALITE_API Image {
     /// An image of one's own pixels: linear radiance, height x width x 3 numbers. Throws Error{Usage} unless there are
     /// so many, and at least one pixel.
     Image(int width, int height, std::span<const float> pixels);
-    /// Reads the colours of a PNG, OpenEXR, Radiance or PFM file. Throws Error{BadInput} and Error{LimitExceeded}.
+    /// The same with alpha, height x width numbers in [0, 1], by which the pixels are multiplied already.
+    Image(int width, int height, std::span<const float> pixels, std::span<const float> alpha);
+    /// Reads colours and alpha of a PNG, OpenEXR, Radiance or PFM file. Throws Error{BadInput} and Error{LimitExceeded}.
     [[nodiscard]] static Image load(const std::string &path);
 
     [[nodiscard]] int width() const noexcept;
@@ -46,6 +59,9 @@ class HYALITE_API Image {
 
     /// The means of the samples: height x width x 3.
     [[nodiscard]] std::span<const float> pixels() const noexcept;
+    /// Opacity, height x width; or empty if the image is opaque. `pixels` are multiplied by it (premultiplied) unless they
+    /// are display-encoded.
+    [[nodiscard]] std::span<const float> alpha() const noexcept;
     /// The unbiased estimate of the variance of `pixels`; NaN below two samples a pixel. Of the same shape, or empty if
     /// the image was not rendered.
     [[nodiscard]] std::span<const float> variance() const;
@@ -63,9 +79,10 @@ class HYALITE_API Image {
     [[nodiscard]] std::string provenance() const;
 
     /// Writes a .png, .exr, .hdr or .pfm file, which appears whole or not at all, as `hyalite render` does: an EXR has
-    /// the layers, and the exposure is a PNG's. `tone` is "gamma", "srgb", "aces" or "agx". Throws
-    /// Error{OutputNotWritten}, and Error{Usage} for other names.
+    /// the layers, and the exposure is a PNG's; both have alpha. Throws Error{OutputNotWritten}, and Error{Usage} for
+    /// other names.
     void save(const std::string &path, const std::string &tone = "gamma") const;
+    void save(const std::string &path, const SaveOptions &options) const;
     /// The bytes of such a PNG.
     [[nodiscard]] std::string png(const std::string &tone = "gamma") const;
 

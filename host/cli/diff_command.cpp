@@ -12,7 +12,9 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
     const auto options = std::make_shared<DiffOptions>();
     command->footer(
         "Values are compared as the files have them: PNG in [0, 1], EXR, HDR and PFM linear; PSNR "
-        "and SSIM take a range of 1. "
+        "and SSIM take a range of 1. Images with alpha are compared over black, and so is alpha: one without "
+        "it "
+        "is opaque. "
         "The exit code is 0 if all gates are passed, or, without a gate (--min-..., --max-...), "
         "if the images "
         "are identical to the bit; and 1 if not.");
@@ -36,7 +38,7 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
     addNumber(*command, "--min-ssim", options->minSsim, Interval{-1.0, 1.0}, "gate: minimum mean SSIM");
     addNumber(*command, "--max-flip", options->maxFlip, limits::fraction, "gate: maximum mean FLIP error");
     addNumber(*command, "--max-diff", options->maxDifference, distance,
-              "gate: maximum difference of a channel");
+              "gate: maximum difference of a channel, also of alpha");
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
               "gate: maximum fraction of outliers, from 0 to 1");
     for (const char *option : {"--mask", "--diff", "--threshold", "--min-psnr", "--min-ssim", "--max-flip",

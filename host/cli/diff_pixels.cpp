@@ -7,7 +7,6 @@
 #include "host/image/heat_map.h"
 #include "host/image/png.h"
 #include "host/image/ssim.h"
-#include "host/image/tone_map.h"
 #include "host/report/provenance.h"
 
 #include <fmt/format.h>
@@ -32,9 +31,8 @@ struct Gate {
 };
 
 struct Inputs {
-    Image reference;
-    Image test;
-    Encoding encoding = Encoding::Display;
+    LoadedImage reference;
+    LoadedImage test;
     std::string toneMapped; ///< the file that was tone-mapped for the comparison, or empty
     Mask mask;
 };
@@ -45,19 +43,17 @@ Inputs readInputs(const DiffOptions &options) {
     requireSameSize(reference.image, options.reference, test.image, options.test);
 
     Inputs inputs;
-    if (reference.encoding == test.encoding) {
-        inputs.encoding = reference.encoding;
-    } else {
+    if (reference.encoding != test.encoding) {
         LoadedImage &linear = reference.encoding == Encoding::Linear ? reference : test;
-        linear.image = displayed(linear.image);
         inputs.toneMapped = &linear == &reference ? options.reference : options.test;
+        linear = asDisplayed(linear);
     }
-    inputs.reference = std::move(reference.image);
-    inputs.test = std::move(test.image);
+    inputs.reference = std::move(reference);
+    inputs.test = std::move(test);
 
     if (!options.mask.empty()) {
         const Image mask = readImage(options.mask).image;
-        requireSameSize(inputs.reference, options.reference, mask, options.mask);
+        requireSameSize(inputs.reference.image, options.reference, mask, options.mask);
         inputs.mask = maskFromImage(mask);
         if (std::find(inputs.mask.begin(), inputs.mask.end(), 1) == inputs.mask.end())
             throw Error(
@@ -88,7 +84,9 @@ std::vector<Gate> applyGates(const DiffOptions &options, const ImageComparison &
     atLeast("--min-psnr", options.minPsnr, comparison.pixels.psnrDecibels());
     atLeast("--min-ssim", options.minSsim, comparison.ssim.value_or(0.0));
     atMost("--max-flip", options.maxFlip, comparison.flip.mean);
-    atMost("--max-diff", options.maxDifference, comparison.pixels.maxAbsoluteDifference);
+    atMost("--max-diff", options.maxDifference,
+           std::max(comparison.pixels.maxAbsoluteDifference,
+                    comparison.alpha ? comparison.alpha->maxAbsoluteDifference : 0.0));
     atMost("--max-outliers", options.maxOutliers, comparison.pixels.outlierFraction());
     return gates;
 }
@@ -98,11 +96,24 @@ std::string share(std::uint64_t count, std::uint64_t total) {
                        100.0 * static_cast<double>(count) / static_cast<double>(total));
 }
 
+void printAlpha(const DiffOptions &options, const AlphaMetrics &alpha, int width, std::uint64_t pixelCount) {
+    if (!alpha.hasReference || !alpha.hasTest)
+        printResult("alpha        {} has none, and counts as opaque\n",
+                    alpha.hasReference ? options.test : options.reference);
+    printResult("alpha        {} pixels differ", share(alpha.differingPixelCount, pixelCount));
+    if (!alpha.identical()) {
+        const auto side = static_cast<std::size_t>(width);
+        printResult("; largest {:.6g} at ({}, {}), mean {:.6g}", alpha.maxAbsoluteDifference,
+                    alpha.worstIndex % side, alpha.worstIndex / side, alpha.meanAbsoluteDifference);
+    }
+    printResult("; colours are compared over black\n");
+}
+
 void printTable(const DiffOptions &options, const Inputs &inputs, const ImageComparison &comparison) {
     const PixelMetrics &pixels = comparison.pixels;
     const bool isLinear = comparison.encoding == Encoding::Linear;
-    printResult("reference    {}: {} x {}, {}\n", options.reference, inputs.reference.width(),
-                inputs.reference.height(), isLinear ? "linear" : "display-encoded");
+    printResult("reference    {}: {} x {}, {}\n", options.reference, inputs.reference.image.width(),
+                inputs.reference.image.height(), isLinear ? "linear" : "display-encoded");
     printResult("test         {}\n", options.test);
     if (!inputs.toneMapped.empty())
         printResult("             {} is linear and was tone-mapped to 8 bits to be compared\n",
@@ -116,8 +127,8 @@ void printTable(const DiffOptions &options, const Inputs &inputs, const ImageCom
     if (pixels.nonFiniteCount > 0)
         printResult("not finite   {} pixels\n", share(pixels.nonFiniteCount, pixels.pixelCount));
     if (!pixels.identical()) {
-        const glm::vec3 &a = inputs.reference.at(pixels.worstX, pixels.worstY);
-        const glm::vec3 &b = inputs.test.at(pixels.worstX, pixels.worstY);
+        const glm::vec3 a = inputs.reference.composite().at(pixels.worstX, pixels.worstY);
+        const glm::vec3 b = inputs.test.composite().at(pixels.worstX, pixels.worstY);
         printResult("largest      {:.6g} at ({}, {}): ({:.9g} {:.9g} {:.9g}) and ({:.9g} {:.9g} {:.9g})\n",
                     pixels.maxAbsoluteDifference, pixels.worstX, pixels.worstY, a.x, a.y, a.z, b.x, b.y, b.z);
     }
@@ -132,6 +143,8 @@ void printTable(const DiffOptions &options, const Inputs &inputs, const ImageCom
     printResult("{}     mean {:.6f}, weighted median {:.6f}, max {:.6f}\n",
                 isLinear ? "HDR-FLIP" : "FLIP    ", comparison.flip.mean, comparison.flip.weightedMedian,
                 comparison.flip.max);
+    if (comparison.alpha)
+        printAlpha(options, *comparison.alpha, inputs.reference.image.width(), pixels.pixelCount);
 }
 
 void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
@@ -154,7 +167,7 @@ std::string formatReport(const DiffOptions &options, const std::string &commandL
     if (!inputs.toneMapped.empty())
         report["toneMapped"] = inputs.toneMapped;
     report["outlierThreshold"] = options.outlierThreshold;
-    report.update(comparisonToJson(comparison, inputs.reference, inputs.test));
+    report.update(comparisonToJson(comparison, inputs.reference.composite(), inputs.test.composite()));
     report["gates"] = nlohmann::ordered_json::array();
     for (const Gate &gate : gates)
         report["gates"].push_back({{"option", gate.option},
@@ -183,9 +196,9 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
 
     const Inputs inputs = readInputs(options);
     const ImageComparison comparison =
-        compareImages(inputs.reference, inputs.test, inputs.encoding, options.outlierThreshold, inputs.mask);
+        compareImages(inputs.reference, inputs.test, options.outlierThreshold, inputs.mask);
     const std::vector<Gate> gates = applyGates(options, comparison);
-    bool isPassed = !gates.empty() || comparison.pixels.identical();
+    bool isPassed = !gates.empty() || comparison.identical();
     for (const Gate &gate : gates)
         isPassed = isPassed && gate.isPassed;
 

@@ -30,7 +30,7 @@ struct MergeOptions {
     std::vector<std::string> parts;
     std::string output;
     bool isPartial = false;
-    std::optional<ToneCurve> tone;
+    FileRequest file;
     std::optional<double> auditPercent;
     std::optional<std::uint32_t> auditSeed;
     RendererNames devices{"auto"};
@@ -159,7 +159,7 @@ nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &com
 }
 
 void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, const MergeOptions &options,
-                  const std::string &commandLine) {
+                  const std::string &commandLine, Observer &observer) {
     const PartOrigin &origin = merger.origin();
     FilmPicture picture{.film = merger.film(), .views = merger.layers()};
     picture.wholeWidth = origin.wholeWidth;
@@ -168,18 +168,19 @@ void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, co
     picture.settings.integrator = origin.integrator;
     picture.settings.exposureStops = origin.exposureStops;
     picture.settings.hasAlpha = origin.hasAlpha;
-    picture.tone = options.tone.value_or(ToneCurve::Gamma);
-    writeFilmPicture(file, format, picture);
+    picture.options = options.file.options();
+    picture.projection = origin.projection;
+    const std::vector<std::string> losses = writeFilmPicture(file, format, picture);
     file.commit();
+    for (const std::string &loss : losses)
+        observer.warning(fmt::format("{}: {}", options.output, loss));
 }
 
 ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     const ImageFormat format = imageFormatOf(options.output);
     if (options.auditSeed && !options.auditPercent)
         throw Error(ErrorKind::Usage, "--audit-seed needs --audit PERCENT");
-    if (options.tone && format != ImageFormat::Png)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--tone is for .png files: --output is {}", options.output));
+    requireFileOptions(options.file, options.output);
     requireDistinctFiles({{"--output", options.output}}, options.parts);
     AtomicFile file(options.output);
     TerminalObserver observer(options.isQuiet);
@@ -204,7 +205,7 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     }); // which is in alpha
     if (hasLayers && format != ImageFormat::Exr)
         printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
-    writePicture(file, format, merger, options, commandLine);
+    writePicture(file, format, merger, options, commandLine, observer);
     if (!options.isQuiet)
         printResult("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
                     merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
@@ -249,7 +250,7 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
         ->capture_default_str();
     addPaths(*command, "--allow-path", options->allowedPaths,
              "for --audit: also read this file, or files in this folder; repeatable");
-    addToneOption(*command, options->tone);
+    addFileOptions(*command, options->file);
     command->add_flag("--quiet", options->isQuiet, "print errors, and what differs, only");
     command->callback([options, &context] { context.exitCode = runMerge(*options, context.commandLine); });
 }

@@ -4,6 +4,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/message.h"
 #include "host/base/standard_stream.h"
+#include "host/image/image_file.h"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,34 @@ CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve) {
     return addChoice(command, "--tone", curve, toneCurveNames,
                      "tone curve of a PNG: gamma (2.2, the default) and srgb clip bright colours, aces and "
                      "agx roll them off as film does");
+}
+
+void addFileOptions(CLI::App &command, FileRequest &file) {
+    addToneOption(command, file.tone);
+    command.add_flag(
+        "--half", file.isHalf,
+        "store colours, alpha, albedo and ao of an .exr as 16-bit floats, at most 65504; the other "
+        "layers stay exact");
+    addChoice(command, "--exr-compression", file.compression, exrCompressionNames,
+              "compression of an .exr: none to piz keep every bit; pxr24, b44, b44a, dwaa and dwab are lossy")
+        ->type_name("NAME")
+        ->default_str("zip");
+}
+
+std::string_view givenOption(const FileRequest &file) {
+    return file.tone ? "--tone" : file.isHalf ? "--half" : file.compression ? "--exr-compression" : "";
+}
+
+void requireFileOptions(const FileRequest &file, const std::string &output) {
+    const ImageFormat format = imageFormatOf(output);
+    if (file.tone && format != ImageFormat::Png)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--tone is for .png files: --output is {}, which holds radiance as it is; "
+                                "`hyalite tonemap` makes a PNG of it",
+                                output));
+    if (const std::string_view option = givenOption({{}, file.isHalf, file.compression});
+        !option.empty() && format != ImageFormat::Exr)
+        throw Error(ErrorKind::Usage, fmt::format("{} is for .exr files: --output is {}", option, output));
 }
 
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs) {

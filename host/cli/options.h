@@ -6,7 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/json_reader.h"
-#include "host/image/tone_map.h"
+#include "host/image/file_options.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 
@@ -135,6 +135,15 @@ CLI::Option *addPaths(CLI::App &command, const std::string &name, std::vector<st
 
 /// --tone, for commands that write a PNG. `curve` must outlive the command; it is empty for the default.
 CLI::Option *addToneOption(CLI::App &command, std::optional<ToneCurve> &curve);
+
+/// The same, and the options of an EXR, for commands that write either. `file` must outlive the command.
+void addFileOptions(CLI::App &command, FileRequest &file);
+
+/// The option of the file that was given, or an empty text.
+[[nodiscard]] std::string_view givenOption(const FileRequest &file);
+
+/// Throws Error{Usage} for an option that the format of `output` has not.
+void requireFileOptions(const FileRequest &file, const std::string &output);
 
 /// The range of times.
 inline constexpr Interval anySeconds{0.0, 1e9, false};

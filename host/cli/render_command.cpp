@@ -56,9 +56,10 @@ void requirePartOptions(const RenderRequest &request) {
         throw Error(ErrorKind::Usage,
                     "--part: --output is the checkpoint, from which each render of the part "
                     "goes on; leave out --checkpoint and --resume");
-    if (request.partialSeconds || request.tone)
+    const std::string_view ofFile = givenOption(request.file);
+    if (request.partialSeconds || !ofFile.empty())
         throw Error(ErrorKind::Usage,
-                    fmt::format("--part: {} is for pictures", request.tone ? "--tone" : "--partial"));
+                    fmt::format("--part: {} is for pictures", ofFile.empty() ? "--partial" : ofFile));
     if (isInDouble(request))
         throw Error(ErrorKind::Usage,
                     "--part: cpu-double sums in double precision, which a part does not hold; "
@@ -88,11 +89,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
-    if (request.tone && format != ImageFormat::Png)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--tone is for .png files: --output is {}, which holds radiance as it is; "
-                                "`hyalite tonemap` makes a PNG of it",
-                                request.output));
+    requireFileOptions(request.file, request.output);
     if (!request.scene.views.empty() && format != ImageFormat::Exr)
         throw Error(ErrorKind::Usage,
                     fmt::format("--layers are for .exr files: --output is {}", request.output));

@@ -98,7 +98,7 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->capture_default_str();
-    addToneOption(command, request.tone);
+    addFileOptions(command, request.file);
     addLayersOption(command, request.scene.views);
     addThreadsOption(command, request.threadCount);
     addDeviceOptions(command, request.deviceOptions);

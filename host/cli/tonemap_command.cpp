@@ -35,9 +35,10 @@ ExitCode runToneMap(const ToneMapOptions &options, const std::string &commandLin
             fmt::format("cannot use image '{}': a PNG is tone-mapped already; name an EXR, HDR or PFM file",
                         options.input));
     Picture picture(loaded.image);
+    picture.alpha = loaded.alpha;
     picture.attributes = attributesOf(programToJson(commandLine));
     writeImage(file, ImageFormat::Png, picture, options.exposureStops,
-               options.tone.value_or(ToneCurve::Gamma));
+               {.tone = options.tone.value_or(ToneCurve::Gamma)});
     file.commit();
     return ExitCode::Ok;
 }
@@ -47,7 +48,9 @@ ExitCode runToneMap(const ToneMapOptions &options, const std::string &commandLin
 void addToneMapCommand(CLI::App &app, CommandContext &context) {
     CLI::App *command = app.add_subcommand("tonemap", "make a PNG of an image of linear radiance");
     const auto options = std::make_shared<ToneMapOptions>();
-    command->footer("The PNG has the pixels that `hyalite render` would have written with the same options.");
+    command->footer(
+        "The PNG has the pixels that `hyalite render` would have written with the same options, and the "
+        "alpha of an EXR.");
     command->add_option("IN", options->input, "EXR, HDR or PFM; -: standard input")->required();
     addOutput(*command, "OUT", options->output, "", "the .png to write; -: standard output")->required();
     addNumber(*command, "--exposure", options->exposureStops, rangeOf(&RenderSettings::exposureStops),

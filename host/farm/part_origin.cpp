@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -31,6 +33,20 @@ int sideOf(const nlohmann::ordered_json &value) {
         throw Error(ErrorKind::BadInput,
                     fmt::format("its picture cannot have a side of {} pixels", value.dump()));
     return static_cast<int>(value.get<std::int64_t>());
+}
+
+Projection projectionOf(const nlohmann::ordered_json &json) {
+    Projection projection;
+    for (const auto &[key, matrix] : {std::pair{"worldToCamera", &projection.worldToCamera},
+                                      std::pair{"worldToNdc", &projection.worldToNdc}}) {
+        const auto values = json.at(key).get<std::vector<double>>();
+        if (values.size() != matrix->size())
+            throw Error(ErrorKind::BadInput,
+                        fmt::format("its {} has {} numbers, not 16", key, values.size()));
+        std::ranges::copy(values, matrix->begin());
+    }
+    projection.screenWindowWidth = json.at("screenWindowWidth").get<double>();
+    return projection;
 }
 
 } // namespace
@@ -54,6 +70,10 @@ std::string toText(const PartOrigin &origin) {
                                 {"provenance", nlohmann::ordered_json::parse(origin.provenance)}};
     for (const Integrator layer : origin.layers)
         json["layers"].push_back(nameOf(layer));
+    if (origin.projection)
+        json["projection"] = {{"worldToCamera", origin.projection->worldToCamera},
+                              {"worldToNdc", origin.projection->worldToNdc},
+                              {"screenWindowWidth", origin.projection->screenWindowWidth}};
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -89,6 +109,8 @@ PartOrigin readPartOrigin(std::string_view text) {
         };
         for (const nlohmann::ordered_json &word : json.at("layers"))
             origin.layers.push_back(integratorOf(word));
+        if (json.contains("projection"))
+            origin.projection = projectionOf(json.at("projection"));
         const nlohmann::ordered_json &settings = provenance.at("settings");
         origin.integrator = integratorOf(settings.at("integrator"));
         origin.exposureStops = settings.at("exposure").get<double>();

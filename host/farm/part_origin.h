@@ -2,8 +2,10 @@
 #pragma once
 
 #include "host/film/partition.h"
+#include "host/image/picture.h"
 #include "host/scene/settings.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +19,8 @@ struct PartOrigin {
     int wholeWidth = 0;             ///< of the picture that the crop is of, in pixels
     int wholeHeight = 0;
     std::vector<Integrator> layers;
-    std::string provenance; ///< of the render, with its device, as JSON
+    std::optional<Projection> projection; ///< of the camera; none of a panorama, nor of older parts
+    std::string provenance;               ///< of the render, with its device, as JSON
 
     // Read from the provenance.
     Integrator integrator = Integrator::Whitted;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace hyalite::core {
 
@@ -22,11 +23,11 @@ std::vector<Layer> filmLayers(const Film &film) {
                                       *next++ = static_cast<float>(variance[channel]);
                               }
                           }});
-    layers.push_back({"samples", "", [&film](int y, std::span<float> row) {
-                          float *next = row.data();
-                          for (const layout::FilmPixel &pixel : rowOf(film, y))
-                              *next++ = static_cast<float>(pixel.sampleCount);
-                      }});
+    Layer samples{"samples", "Y", {}};
+    samples.fillWholeRow = [&film](int y, std::span<std::uint32_t> row) {
+        std::ranges::transform(rowOf(film, y), row.begin(), &layout::FilmPixel::sampleCount);
+    };
+    layers.push_back(std::move(samples));
     return layers;
 }
 

@@ -75,7 +75,7 @@ struct Film {
 [[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
 
 /// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; and "samples", the
-/// sample count. `film` must outlive them.
+/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part. `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
 /// Whether two pixels are equal in every bit.

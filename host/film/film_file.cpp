@@ -1,5 +1,6 @@
 #include "host/film/film_file.h"
 
+#include "host/image/exr.h"
 #include "host/image/false_colour.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
@@ -20,35 +21,34 @@ Drawing drawCost(const Film &cost) {
                         "box and triangle tests per sample");
 }
 
-namespace {
-
-/// `image` is that of the film.
-Drawing draw(const Film &film, const Image &image, const RenderSettings &settings, ToneCurve tone) {
+Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve tone) {
     if (settings.integrator == Integrator::Cost)
         return drawCost(film);
     Drawing drawing;
-    drawing.width = image.width();
-    drawing.height = image.height();
-    drawing.rgb = toneMap(image, settings.exposureStops, tone);
+    drawing.width = film.crop.width();
+    drawing.height = film.crop.height();
+    drawing.rgb = toneMap(film.toImage(), settings.exposureStops, tone);
     return drawing;
 }
 
-} // namespace
-
-Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve tone) {
-    return draw(film, film.toImage(), settings, tone);
-}
-
-void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
-               const RenderSettings &settings, ToneCurve tone) {
-    if (format == ImageFormat::Png) {
-        const Drawing drawing = draw(film, picture.colour, settings, tone);
-        picture.attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
-        writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
-    } else {
-        picture.attributes.emplace_back(pixelsAttribute, pixelHash(picture.colour));
-        writeImage(file, format, picture, settings.exposureStops, tone);
+std::vector<std::string> writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
+                                   const RenderSettings &settings, const FileOptions &options) {
+    if (format != ImageFormat::Png) {
+        if (format == ImageFormat::Exr)
+            picture.attributes.emplace_back(pixelsAttribute, exrPixelHash(picture, options.exr));
+        return writeImage(file, format, picture, settings.exposureStops, options);
     }
+    Drawing drawing;
+    if (settings.integrator == Integrator::Cost) {
+        drawing = drawCost(film);
+    } else {
+        drawing.width = picture.colour.width();
+        drawing.height = picture.colour.height();
+        drawing.rgb = pngLevels(picture, settings.exposureStops, options.tone);
+    }
+    picture.attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
+    writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
+    return {};
 }
 
 } // namespace hyalite::core

@@ -6,6 +6,7 @@
 #include "host/image/image_file.h"
 #include "host/scene/settings.h"
 
+#include <string>
 #include <vector>
 
 namespace hyalite::core {
@@ -19,13 +20,13 @@ inline constexpr const char *pixelsAttribute = "pixels";
 /// The same in false colours, with a legend.
 [[nodiscard]] Drawing drawCost(const Film &cost);
 
-/// The picture in a PNG: the tone-mapped means, or drawCost() for the cost.
+/// The picture without alpha, which is its composite over black: the tone-mapped means, or drawCost() for the cost.
 [[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings,
                                ToneCurve tone = ToneCurve::Gamma);
 
 /// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost, with the attribute "pixels", which is
-/// pixelHash() of the file's colours. Throws likewise.
-void writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
-               const RenderSettings &settings, ToneCurve tone = ToneCurve::Gamma);
+/// pixelHash() of the file's colours. Returns and throws likewise.
+std::vector<std::string> writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
+                                   const RenderSettings &settings, const FileOptions &options = {});
 
 } // namespace hyalite::core

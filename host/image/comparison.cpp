@@ -2,6 +2,7 @@
 
 #include "host/image/ssim.h"
 
+#include <cassert>
 #include <vector>
 
 namespace hyalite::core {
@@ -43,6 +44,16 @@ ImageComparison compareImages(const Image &reference, const Image &test, Encodin
     for (std::size_t i = 0; i < comparison.flipMap.errors.size(); ++i)
         if (!isCompared(mask, i))
             comparison.flipMap.errors[i] = 0.0f;
+    return comparison;
+}
+
+ImageComparison compareImages(const LoadedImage &reference, const LoadedImage &test, double outlierThreshold,
+                              const Mask &mask) {
+    assert(reference.encoding == test.encoding);
+    ImageComparison comparison =
+        compareImages(reference.composite(), test.composite(), reference.encoding, outlierThreshold, mask);
+    if (!reference.alpha.empty() || !test.alpha.empty())
+        comparison.alpha = compareAlpha(reference.alpha, test.alpha, reference.image.pixels().size(), mask);
     return comparison;
 }
 

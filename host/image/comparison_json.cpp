@@ -21,6 +21,17 @@ nlohmann::ordered_json flipToJson(const ImageComparison &comparison) {
     return flip;
 }
 
+nlohmann::ordered_json alphaToJson(const AlphaMetrics &alpha, int width) {
+    const std::size_t side = static_cast<std::size_t>(width);
+    return {{"inReference", alpha.hasReference},
+            {"inTest", alpha.hasTest},
+            {"identical", alpha.identical()},
+            {"differingPixelCount", alpha.differingPixelCount},
+            {"maxDifference", alpha.maxAbsoluteDifference},
+            {"meanAbsoluteDifference", alpha.meanAbsoluteDifference},
+            {"worstPixel", {{"x", alpha.worstIndex % side}, {"y", alpha.worstIndex / side}}}};
+}
+
 } // namespace
 
 nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison, const Image &reference,
@@ -31,7 +42,7 @@ nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison, const
     json["width"] = reference.width();
     json["height"] = reference.height();
     json["encoding"] = isLinear ? "linear" : "display";
-    json["identical"] = pixels.identical();
+    json["identical"] = comparison.identical();
     json["pixelCount"] = pixels.pixelCount;
     json["differingPixelCount"] = pixels.differingPixelCount;
     json["outlierCount"] = pixels.outlierCount;
@@ -57,6 +68,8 @@ nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison, const
     else
         json["ssim"] = nullptr;
     json["flip"] = flipToJson(comparison);
+    if (comparison.alpha)
+        json["alpha"] = alphaToJson(*comparison.alpha, reference.width());
     return json;
 }
 

@@ -8,7 +8,7 @@
 namespace hyalite::core {
 
 /// All metrics, and the values of the compared images at the worst pixel. Values that are not available, or that JSON
-/// cannot express (an infinite PSNR), become null.
+/// cannot express (an infinite PSNR), become null. "alpha" is there if an image has it; "identical" covers it.
 [[nodiscard]] nlohmann::ordered_json comparisonToJson(const ImageComparison &comparison,
                                                       const Image &reference, const Image &test);
 

@@ -3,18 +3,35 @@
 
 #include "host/base/atomic_file.h"
 #include "host/base/input_file.h"
+#include "host/image/alpha.h"
+#include "host/image/exr_options.h"
 #include "host/image/picture.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hyalite::core {
 
-/// Writes scan lines of float32 with lossless compression: R, G and B, linear, with the primaries of Rec. 709; each
-/// layer as NAME.CHANNEL, or as NAME if it has one value per pixel; and the attributes as strings. The display window
-/// is the whole image, the data window the crop. The same picture makes the same bytes. Throws Error{OutputNotWritten}.
-void writeExr(AtomicFile &file, const Picture &picture);
+/// Writes one part of scan lines: R, G, B and, if the picture has alpha, A, linear, with the primaries of Rec. 709; each
+/// layer as NAME.CHANNEL, or as NAME if it has one value per pixel; the attributes as strings, and the projection as
+/// worldToCamera, worldToNDC and screenWindowWidth. Numbers are float32, of light float16 on request, and UINT where
+/// they are whole. The display window is the whole image, the data window the crop. The same picture makes the same
+/// bytes.
+///
+/// Several parts would let readers skip layers, but not all programs look beyond the first one (ImageMagick, xStudio).
+///
+/// Returns what the file has lost, a sentence each: values above the range of float16, which become 65504, its largest;
+/// and layers of data that a compression changes. Throws Error{OutputNotWritten}.
+std::vector<std::string> writeExr(AtomicFile &file, const Picture &picture, const ExrOptions &options = {});
+
+/// pixelHash() of the colours that such a file holds: what readExrWithAlpha() finds there.
+[[nodiscard]] std::string exrPixelHash(const Picture &picture, const ExrOptions &options);
+
+/// Whether the compression changes some values: of 16-bit channels, of 32-bit ones, or of colours.
+[[nodiscard]] bool isLossy(ExrCompression compression);
 
 /// Whether the first bytes of a file are those of an OpenEXR file.
 [[nodiscard]] bool isExr(std::span<const std::byte> head);
@@ -32,6 +49,13 @@ enum class ExrWindow {
 /// readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "",
                             ExrWindow window = ExrWindow::Data);
+
+/// The same of the channels without a layer, with alpha, if there is a channel A. Colours are premultiplied.
+[[nodiscard]] AlphaImage readExrWithAlpha(const InputFile &file);
+
+/// The values of a layer of one whole number a pixel (UINT), exactly, row by row. Throws as readExr() does, and
+/// Error{BadInput} for other types.
+[[nodiscard]] std::vector<std::uint32_t> readExrWhole(const InputFile &file, const std::string &layer);
 
 /// Whether the file has that layer. Throws as readExr() does if the header cannot be read.
 [[nodiscard]] bool hasExrLayer(const InputFile &file, const std::string &layer);

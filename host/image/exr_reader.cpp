@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -269,7 +270,7 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     if (linesTogether * widthTogether > farTooMuch)
         throw file.bad("its tiles are larger than any image");
     const std::uint64_t packedBytes = widthTogether * bytesPerPixel * linesTogether;
-    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec3) + copyCount * packedBytes;
+    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec4) + copyCount * packedBytes;
     requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
                          neededBytes);
 }
@@ -292,41 +293,55 @@ std::vector<Imf::Header> readHeaders(const InputFile &file, const SafeHeader &sa
 struct FoundLayer {
     std::size_t part;
     std::array<std::string, 3> channels;
+    std::string alpha{}; ///< empty: it has none
 };
+
+/// The alpha channel of a layer, or an empty name.
+std::string alphaOf(const Imf::ChannelList &channels, const std::string &layer) {
+    const std::string name = prefixOf(layer) + "A";
+    return channels.findChannel(name) != nullptr ? name : "";
+}
 
 /// A layer is a group of channels, or a part of its name with R, G and B.
 std::optional<FoundLayer> findLayer(const std::vector<Imf::Header> &headers, const std::string &layer) {
     for (std::size_t part = 0; part < headers.size(); ++part)
         if (const auto channels = findChannels(headers[part].channels(), layer))
-            return FoundLayer{part, *channels};
+            return FoundLayer{part, *channels, alphaOf(headers[part].channels(), layer)};
     for (std::size_t part = 0; part < headers.size(); ++part)
         if (headers[part].hasName() && headers[part].name() == layer)
             if (const auto channels = findChannels(headers[part].channels(), ""))
-                return FoundLayer{part, *channels};
+                return FoundLayer{part, *channels, alphaOf(headers[part].channels(), "")};
     return std::nullopt;
 }
 
-/// Reads the layer's channels. Reader is Imf::InputFile or Imf::InputPart, both of which read tiles as lines.
+/// Reads the layer's channels, and alpha only if it is wanted. Reader is Imf::InputFile or Imf::InputPart, both of which
+/// read tiles as lines.
 template <class Reader>
-Image readPixels(const InputFile &file, Reader &reader, const Imf::Header &header,
-                 const std::array<std::string, 3> &names) {
+AlphaImage readPixels(const InputFile &file, Reader &reader, const Imf::Header &header,
+                      const FoundLayer &layer, bool wantsAlpha) {
     if (!reader.isComplete())
         throw file.bad("some of its rows are missing");
     const Imath::Box2i &window = header.dataWindow();
-    Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    AlphaImage read{Image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1), {}};
+    Image &image = read.image;
     Imf::FrameBuffer frameBuffer;
-    const bool isGrey = names[0] == names[1];
+    const auto width = static_cast<std::size_t>(image.width());
+    const bool isGrey = layer.channels[0] == layer.channels[1];
     for (std::size_t channel = 0; channel < (isGrey ? 1u : 3u); ++channel)
-        frameBuffer.insert(names[channel],
+        frameBuffer.insert(layer.channels[channel],
                            Imf::Slice::Make(Imf::FLOAT, &image.pixels().front().x + channel, window,
-                                            sizeof(glm::vec3),
-                                            sizeof(glm::vec3) * static_cast<std::size_t>(image.width())));
+                                            sizeof(glm::vec3), sizeof(glm::vec3) * width));
+    if (wantsAlpha && !layer.alpha.empty()) {
+        read.alpha.resize(image.pixels().size());
+        frameBuffer.insert(layer.alpha, Imf::Slice::Make(Imf::FLOAT, read.alpha.data(), window, sizeof(float),
+                                                         sizeof(float) * width));
+    }
     reader.setFrameBuffer(frameBuffer);
     reader.readPixels(window.min.y, window.max.y);
     if (isGrey)
         for (glm::vec3 &pixel : image.pixels())
             pixel = glm::vec3(pixel.x);
-    return image;
+    return read;
 }
 
 /// The picture of the display window, from that of the data window.
@@ -348,25 +363,48 @@ Image displayed(const InputFile &file, const Imf::Header &header, Image &&stored
     return image;
 }
 
-Image readLayer(const InputFile &file, const std::string &layer, ExrWindow window) {
+/// The result of read(input, its safe header, the checked headers of its parts, the layer).
+template <class Read> auto withLayer(const InputFile &file, const std::string &layer, const Read &read) {
     const SafeHeader safeHeader(file);
     ExrInput input(file, safeHeader);
     const std::vector<Imf::Header> headers = readHeaders(file, safeHeader, input);
     const std::optional<FoundLayer> found = findLayer(headers, layer);
     if (!found)
         refuseChannels(file, headers.front().channels(), layer);
-    const auto shown = [&](Image &&stored) {
-        return window == ExrWindow::Data ? std::move(stored)
-                                         : displayed(file, headers[found->part], std::move(stored));
-    };
     input.seekg(0);
     if (!safeHeader.hasParts()) {
         Imf::InputFile reader(input, 0);
-        return shown(readPixels(file, reader, headers.front(), found->channels));
+        return read(reader, headers.front(), *found);
     }
     Imf::MultiPartInputFile parts(input, 0);
     Imf::InputPart reader(parts, static_cast<int>(found->part));
-    return shown(readPixels(file, reader, headers[found->part], found->channels));
+    return read(reader, headers[found->part], *found);
+}
+
+Image readLayer(const InputFile &file, const std::string &layer, ExrWindow window) {
+    return withLayer(file, layer, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+        Image stored = readPixels(file, reader, header, found, false).image;
+        return window == ExrWindow::Data ? stored : displayed(file, header, std::move(stored));
+    });
+}
+
+std::vector<std::uint32_t> readWhole(const InputFile &file, const std::string &layer) {
+    return withLayer(file, layer, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+        const std::string &channel = found.channels[0];
+        if (channel != found.channels[1] || header.channels()[channel].type != Imf::UINT)
+            throw file.bad(fmt::format("its layer {} is not one whole number (UINT) a pixel", layer));
+        if (!reader.isComplete())
+            throw file.bad("some of its rows are missing");
+        const Imath::Box2i &window = header.dataWindow();
+        const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+        std::vector<std::uint32_t> values(width * static_cast<std::size_t>(window.max.y - window.min.y + 1));
+        Imf::FrameBuffer frameBuffer;
+        frameBuffer.insert(channel, Imf::Slice::Make(Imf::UINT, values.data(), window, sizeof(values[0]),
+                                                     sizeof(values[0]) * width));
+        reader.setFrameBuffer(frameBuffer);
+        reader.readPixels(window.min.y, window.max.y);
+        return values;
+    });
 }
 
 } // namespace
@@ -396,6 +434,18 @@ template <class Read> auto asked(const InputFile &file, const Read &read) {
 
 Image readExr(const InputFile &file, const std::string &layer, ExrWindow window) {
     return asked(file, [&] { return readLayer(file, layer, window); });
+}
+
+AlphaImage readExrWithAlpha(const InputFile &file) {
+    return asked(file, [&] {
+        return withLayer(file, "", [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+            return readPixels(file, reader, header, found, true);
+        });
+    });
+}
+
+std::vector<std::uint32_t> readExrWhole(const InputFile &file, const std::string &layer) {
+    return asked(file, [&] { return readWhole(file, layer); });
 }
 
 bool hasExrLayer(const InputFile &file, const std::string &layer) {

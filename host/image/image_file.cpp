@@ -19,23 +19,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hyalite::core {
-
-namespace {
-
-/// The levels that an 8-bit PNG stores.
-std::vector<std::uint8_t> levelsOf(const Image &display) {
-    std::vector<std::uint8_t> levels;
-    levels.reserve(display.pixels().size() * 3);
-    for (const glm::vec3 &pixel : display.pixels())
-        for (int channel = 0; channel < 3; ++channel)
-            levels.push_back(static_cast<std::uint8_t>(std::lround(pixel[channel] * 255.0f)));
-    return levels;
-}
-
-} // namespace
 
 ImageFormat imageFormatOf(const std::filesystem::path &path) {
     const std::optional<std::string> streamFormat = standardStreamFormat(path);
@@ -59,35 +46,68 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
             path.string()));
 }
 
-void writeImage(AtomicFile &file, ImageFormat format, const Picture &picture, double exposureStops,
-                ToneCurve curve) {
+std::vector<std::uint8_t> pngLevels(const Picture &picture, double exposureStops, ToneCurve curve) {
+    if (picture.alpha.empty())
+        return toneMap(picture.colour, exposureStops, curve);
+    return withAlphaLevels(toneMap(straightened(picture.colour, picture.alpha), exposureStops, curve),
+                           picture.alpha);
+}
+
+std::vector<std::uint8_t> pngLevels(const Image &display, std::span<const float> alpha) {
+    std::vector<std::uint8_t> levels;
+    levels.reserve(display.pixels().size() * 3);
+    for (const glm::vec3 &pixel : display.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            levels.push_back(static_cast<std::uint8_t>(std::lround(pixel[channel] * 255.0f)));
+    return alpha.empty() ? levels : withAlphaLevels(levels, alpha);
+}
+
+LoadedImage asDisplayed(const LoadedImage &linear) {
+    LoadedImage display;
+    display.encoding = Encoding::Display;
+    display.image = displayed(linear.alpha.empty() ? linear.image : straightened(linear.image, linear.alpha));
+    for (const float alpha : linear.alpha)
+        display.alpha.push_back(static_cast<float>(alphaLevel(alpha)) / 255.0f);
+    return display;
+}
+
+std::vector<std::string> writeImage(AtomicFile &file, ImageFormat format, const Picture &picture,
+                                    double exposureStops, const FileOptions &options) {
     const Image &image = picture.colour;
+    const auto withoutAlpha = [&](std::string_view name) {
+        return picture.alpha.empty()
+                   ? std::vector<std::string>()
+                   : std::vector{fmt::format("{} has no alpha: its colours are over black", name)};
+    };
     switch (format) {
     case ImageFormat::Png:
-        writePng(file, image.width(), image.height(), toneMap(image, exposureStops, curve),
+        writePng(file, image.width(), image.height(), pngLevels(picture, exposureStops, options.tone),
                  picture.attributes);
         break;
     case ImageFormat::Pfm:
         writePfm(file, image);
-        break;
+        return withoutAlpha("PFM");
     case ImageFormat::Exr:
-        writeExr(file, picture);
-        break;
+        return writeExr(file, picture, options.exr);
     case ImageFormat::Hdr:
         writeHdr(file, image);
-        break;
+        return withoutAlpha("HDR");
     }
+    return {};
 }
 
 LoadedImage readImage(const std::filesystem::path &path) {
     const InputFile file(path);
     const std::vector<std::byte> head = file.head(8);
+    const auto loaded = [](AlphaImage &&read, Encoding encoding) {
+        return LoadedImage{std::move(read.image), encoding, std::move(read.alpha)};
+    };
     if (isPng(head))
-        return {readPng(file), Encoding::Display};
+        return loaded(readPng(file), Encoding::Display);
     if (isPfm(head))
         return {readPfm(file), Encoding::Linear};
     if (isExr(head))
-        return {readExr(file), Encoding::Linear};
+        return loaded(readExrWithAlpha(file), Encoding::Linear);
     if (isHdr(head))
         return {readHdr(file), Encoding::Linear};
     throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
@@ -97,8 +117,9 @@ std::string pixelHash(std::span<const std::uint8_t> levels) {
     return hashText(hashBytes(std::as_bytes(levels)));
 }
 
-std::string pixelHash(const Image &linear) {
-    return hashText(hashBytes(std::as_bytes(std::span(linear.pixels()))));
+std::string pixelHash(const Image &linear, std::span<const float> alpha) {
+    const std::uint64_t ofColours = hashBytes(std::as_bytes(std::span(linear.pixels())));
+    return hashText(alpha.empty() ? ofColours : hashBytes(std::as_bytes(alpha), ofColours));
 }
 
 bool isImageWith(const std::filesystem::path &path, const std::string &text, int width, int height) {
@@ -111,9 +132,10 @@ bool isImageWith(const std::filesystem::path &path, const std::string &text, int
         };
         if (!hasText(text))
             return false;
-        const auto [image, encoding] = readImage(path);
+        const auto [image, encoding, alpha] = readImage(path);
         return image.width() == width && image.height() == height &&
-               hasText(encoding == Encoding::Display ? pixelHash(levelsOf(image)) : pixelHash(image));
+               hasText(encoding == Encoding::Display ? pixelHash(pngLevels(image, alpha))
+                                                     : pixelHash(image, alpha));
     } catch (const Error &) {
         return false;
     }

@@ -5,6 +5,7 @@
 #include "host/image/png_text.h"
 
 #include <fmt/format.h>
+#include <glm/vec4.hpp>
 #include <png.h>
 
 #include <algorithm>
@@ -49,15 +50,18 @@ void appendBytes(void *context, void *data, int sizeBytes) {
 
 /// `name` is for messages.
 std::vector<std::byte> encode(const std::filesystem::path &name, int width, int height,
-                              std::span<const std::uint8_t> rgb, std::span<const Attribute> attributes) {
+                              std::span<const std::uint8_t> levels, std::span<const Attribute> attributes) {
     assert(width > 0 && height > 0);
-    assert(rgb.size() == std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const std::size_t pixelCount = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    assert(levels.size() == 3 * pixelCount || levels.size() == 4 * pixelCount);
+    const int channelCount = levels.size() == 3 * pixelCount ? 3 : 4;
     requirePngSize(name, width, height);
     // Rendered pictures have large flat areas: without row filters they compress twice as fast, to about the same size.
     stbi_write_force_png_filter = 0;
     stbi_write_png_compression_level = 5;
     std::optional<std::vector<std::byte>> file;
-    const int written = stbi_write_png_to_func(appendBytes, &file, width, height, 3, rgb.data(), width * 3);
+    const int written = stbi_write_png_to_func(appendBytes, &file, width, height, channelCount, levels.data(),
+                                               width * channelCount);
     if (written == 0 || !file) {
         throw Error(ErrorKind::LimitExceeded, fmt::format("'{}': no memory to pack a PNG of {} x {} pixels",
                                                           name.string(), width, height));
@@ -94,6 +98,11 @@ struct PngDecoder {
     [[nodiscard]] int width() const { return static_cast<int>(png_get_image_width(png, info)); }
     [[nodiscard]] int height() const { return static_cast<int>(png_get_image_height(png, info)); }
     [[nodiscard]] bool has16Bits() const { return png_get_bit_depth(png, info) == 16; }
+    /// In a channel, a palette or of one colour.
+    [[nodiscard]] bool hasAlpha() const {
+        return (png_get_color_type(png, info) & PNG_COLOR_MASK_ALPHA) != 0 ||
+               png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+    }
 
     [[noreturn]] void refuse() const {
         if (readFailure)
@@ -148,20 +157,21 @@ bool readPngInfo(PngDecoder &decoder) {
     return true;
 }
 
-/// Decodes the pixels to `channelCount` levels each, the fourth of which is alpha, and reads on to the end. Returns
-/// false on failure.
-bool readPngLevels(PngDecoder &decoder, std::span<std::byte> levels, int channelCount) {
+/// Decodes the pixels to `channelCount` levels each, the fourth of which is alpha, and reads on to the end. Levels of 16
+/// bits become those of 8 unless they are kept. Returns false on failure.
+bool readPngLevels(PngDecoder &decoder, std::span<std::byte> levels, int channelCount, bool keeps16Bits) {
     if (setjmp(decoder.failed) != 0)
         return false;
     png_set_expand(decoder.png);
     png_set_gray_to_rgb(decoder.png);
-    if (channelCount == 4) {
+    if (keeps16Bits)
+        png_set_swap(decoder.png); // to little-endian
+    else
         png_set_strip_16(decoder.png);
-        png_set_add_alpha(decoder.png, 255, PNG_FILLER_AFTER);
-    } else {
-        png_set_swap(decoder.png); // 16 bits a channel become little-endian
+    if (channelCount == 4)
+        png_set_add_alpha(decoder.png, 255, PNG_FILLER_AFTER); // unless it has some
+    else
         png_set_strip_alpha(decoder.png);
-    }
     const int passCount = png_set_interlace_handling(decoder.png);
     png_read_update_info(decoder.png, decoder.info);
     const std::size_t rowBytes = png_get_rowbytes(decoder.png, decoder.info);
@@ -185,7 +195,7 @@ void requirePngMemory(const PngDecoder &decoder) {
         throw decoder.file.bad(fmt::format("{} x {} pixels cannot be packed in {} bytes", width, height,
                                            decoder.file.sizeBytes()));
     requireReadingMemory(decoder.file, width, height,
-                         width * height * (sizeof(glm::vec3) + (decoder.has16Bits() ? 6 : 3)) + besideBytes);
+                         width * height * (sizeof(glm::vec4) + (decoder.has16Bits() ? 8 : 4)) + besideBytes);
 }
 
 void beginPng(PngDecoder &decoder) {
@@ -194,17 +204,23 @@ void beginPng(PngDecoder &decoder) {
     requirePngMemory(decoder);
 }
 
-template <typename Level> Image decodePng(PngDecoder &decoder, float levelMax) {
-    Image image(decoder.width(), decoder.height());
-    std::vector<Level> levels(3 * image.pixels().size());
-    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(levels)), 3))
+template <typename Level> AlphaImage decodePng(PngDecoder &decoder, float levelMax) {
+    AlphaImage decoded{Image(decoder.width(), decoder.height()), {}};
+    std::vector<glm::vec3> &pixels = decoded.image.pixels();
+    const std::size_t channelCount = decoder.hasAlpha() ? 4 : 3;
+    std::vector<Level> levels(channelCount * pixels.size());
+    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(levels)), static_cast<int>(channelCount),
+                       sizeof(Level) == 2))
         decoder.refuse();
-    const Level *next = levels.data();
-    for (glm::vec3 &pixel : image.pixels()) {
-        pixel = glm::vec3(next[0], next[1], next[2]) / levelMax;
-        next += 3;
+    if (channelCount == 4)
+        decoded.alpha.resize(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const Level *level = &levels[channelCount * i];
+        pixels[i] = glm::vec3(level[0], level[1], level[2]) / levelMax;
+        if (channelCount == 4)
+            decoded.alpha[i] = static_cast<float>(level[3]) / levelMax;
     }
-    return image;
+    return decoded;
 }
 
 } // namespace
@@ -225,14 +241,14 @@ void requirePngSize(const std::filesystem::path &name, int width, int height) {
     }
 }
 
-void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> rgb,
+void writePng(AtomicFile &file, int width, int height, std::span<const std::uint8_t> levels,
               std::span<const Attribute> attributes) {
-    file.write(encode(file.path(), width, height, rgb, attributes));
+    file.write(encode(file.path(), width, height, levels, attributes));
 }
 
-std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb,
+std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> levels,
                                  std::span<const Attribute> attributes) {
-    return encode("the image", width, height, rgb, attributes);
+    return encode("the image", width, height, levels, attributes);
 }
 
 Texture readPngTexture(const InputFile &file) {
@@ -242,15 +258,14 @@ Texture readPngTexture(const InputFile &file) {
     texture.name = file.path().string();
     texture.width = decoder.width();
     texture.height = decoder.height();
-    texture.hasAlpha = (png_get_color_type(decoder.png, decoder.info) & PNG_COLOR_MASK_ALPHA) != 0 ||
-                       png_get_valid(decoder.png, decoder.info, PNG_INFO_tRNS) != 0;
+    texture.hasAlpha = decoder.hasAlpha();
     texture.levels.resize(texture.pixelCount());
-    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(texture.levels)), 4))
+    if (!readPngLevels(decoder, std::as_writable_bytes(std::span(texture.levels)), 4, false))
         decoder.refuse();
     return texture;
 }
 
-Image readPng(const InputFile &file) {
+AlphaImage readPng(const InputFile &file) {
     PngDecoder decoder(file);
     beginPng(decoder);
     return decoder.has16Bits() ? decodePng<std::uint16_t>(decoder, 65535.0f)

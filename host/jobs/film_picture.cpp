@@ -7,16 +7,21 @@
 
 namespace hyalite::core {
 
-void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
+std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
     const Image image = picture.film.toImage();
     Picture all(image);
+    std::vector<float> alpha;
+    if (alphaKindOf(picture.settings) != layout::alphaOfNothing)
+        alpha = alphasOf(picture.film, picture.views);
+    all.alpha = alpha;
     all.wholeWidth = picture.wholeWidth;
     all.wholeHeight = picture.wholeHeight;
     all.crop = picture.film.crop;
     all.layers = filmLayers(picture.film);
     std::ranges::move(viewLayers(picture.views), std::back_inserter(all.layers));
     all.attributes = picture.attributes;
-    writeFilm(file, format, picture.film, all, picture.settings, picture.tone);
+    all.projection = picture.projection;
+    return writeFilm(file, format, picture.film, all, picture.settings, picture.options);
 }
 
 } // namespace hyalite::core

@@ -4,6 +4,8 @@
 #include "host/image/image_file.h"
 #include "host/jobs/layers.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace hyalite::core {
@@ -16,10 +18,12 @@ struct FilmPicture {
     int wholeHeight = 0;
     std::vector<Attribute> attributes{};
     RenderSettings settings{};
-    ToneCurve tone = ToneCurve::Gamma;
+    FileOptions options{};
+    std::optional<Projection> projection{}; ///< of the camera
 };
 
-/// Writes it with its views and the layers of the film; the caller commits the file. Throws as writeImage() does.
-void writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture);
+/// Writes it with its views and the layers of the film; the caller commits the file. Returns and throws as writeImage()
+/// does.
+std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture);
 
 } // namespace hyalite::core

@@ -72,7 +72,8 @@ Layer layerOf(const ViewFilm &of) {
     };
     if (of.view == Integrator::Depth)
         return {std::string(row.layerChannels), "", fillRow};
-    return {std::string(row.name), std::string(row.layerChannels), fillRow};
+    const bool isLight = of.view == Integrator::Albedo || of.view == Integrator::AmbientOcclusion;
+    return {std::string(row.name), std::string(row.layerChannels), fillRow, isLight};
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "host/jobs/film_picture.h"
 #include "host/jobs/layers.h"
 #include "host/jobs/periodic_files.h"
+#include "host/jobs/projection.h"
 #include "host/scene/light_sources.h"
 
 #include <fmt/format.h>
@@ -38,8 +39,6 @@ ImageFormat formatOf(const RenderRequest &request) {
     return request.part ? ImageFormat::Exr : imageFormatOf(request.output);
 }
 
-ToneCurve toneOf(const RenderRequest &request) { return request.tone.value_or(ToneCurve::Gamma); }
-
 Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part{}); }
 
 void setSquares(const Part &part, const Crop &crop, PictureBeginning &begun) {
@@ -55,10 +54,14 @@ void setSquares(const Part &part, const Crop &crop, PictureBeginning &begun) {
 
 std::string identityOfFrame(const RenderRequest &request, const RenderSession &session) {
     const RenderSettings &settings = session.scene().loaded.settings;
-    const std::string whole =
+    const FileOptions options = request.file.options();
+    std::string whole =
         fmt::format("{}samples per pixel: {}\nexposure: {}\ntone: {}\n",
                     identityText(identityOf(session.scene(), session.backend(), &session.scene().views)),
-                    settings.samplesPerPixel, settings.exposureStops, static_cast<int>(toneOf(request)));
+                    settings.samplesPerPixel, settings.exposureStops, static_cast<int>(options.tone));
+    if (options.exr != ExrOptions()) // those of older frames stay what they were
+        whole += fmt::format("half: {}\ncompression: {}\n", options.exr.isHalf,
+                             static_cast<int>(options.exr.compression));
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
 
@@ -70,6 +73,7 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     origin.words = request.words;
     origin.wholeWidth = scene.loaded.scene.camera.width;
     origin.wholeHeight = scene.loaded.scene.camera.height;
+    origin.projection = projectionOf(scene.loaded.scene);
     origin.layers = scene.views;
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -220,7 +224,8 @@ class PictureRender {
         begun_.checkpoint->write(film, rays, layers);
     }
 
-    void writePicture(AtomicFile &file, const Film &film) const {
+    /// Returns as writeFilmPicture() does.
+    std::vector<std::string> writePicture(AtomicFile &file, const Film &film) const {
         const LoadedScene &loaded = session_.scene().loaded;
         FilmPicture picture{.film = film, .views = layers_};
         picture.wholeWidth = loaded.scene.camera.width;
@@ -233,8 +238,9 @@ class PictureRender {
             picture.attributes.emplace_back("identity", begun_.frameIdentity);
         }
         picture.settings = loaded.settings;
-        picture.tone = toneOf(request_);
-        writeFilmPicture(file, formatOf(request_), picture);
+        picture.options = request_.file.options();
+        picture.projection = projectionOf(loaded.scene);
+        return writeFilmPicture(file, formatOf(request_), picture);
     }
 
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles() {
@@ -247,7 +253,7 @@ class PictureRender {
         if (request_.partialSeconds)
             files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
                                  AtomicFile partial(request_.output);
-                                 writePicture(partial, film);
+                                 writePicture(partial, film); // the last one tells what is lost
                                  partial.commit();
                              }});
         return files;
@@ -268,8 +274,10 @@ class PictureRender {
         if (request_.frame && !report_.finished.isComplete)
             files_.image.reset(); // scripts take an existing frame for finished
         if (files_.image) {
-            writePicture(*files_.image, film);
+            const std::vector<std::string> losses = writePicture(*files_.image, film);
             files_.image->commit();
+            for (const std::string &loss : losses)
+                session_.observer().warning(fmt::format("{}: {}", request_.output, loss));
         } else if (report_.finished.isComplete && isStored) {
             std::error_code ignored; // the older generation is of no use to who merges parts
             std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);

@@ -5,7 +5,7 @@
 #include "host/engine/prepare.h"
 #include "host/farm/rank_backend.h"
 #include "host/film/partition.h"
-#include "host/image/tone_map.h"
+#include "host/image/file_options.h"
 #include "host/scene/integrators.h"
 
 #include <future>
@@ -20,7 +20,7 @@ namespace hyalite::core {
 struct RenderRequest {
     SceneOptions scene;
     std::string output;
-    std::optional<ToneCurve> tone; ///< of a PNG; default: gamma
+    FileRequest file;
     RendererNames devices{"auto"}; ///< several share the picture
     int threadCount = 0;           ///< 0: all
     DeviceOptions deviceOptions;

@@ -164,7 +164,7 @@ FinishedSheet renderSheet(const ViewSeries &series, const RenderRequest &request
         const bool isComplete = finishedWork(film, {&scene.crop, 1}, settings.samplesPerPixel).isComplete;
         finished.viewCount += isComplete ? 1 : 0;
         tiles.push_back({isComplete ? view.name : view.name + " (unfinished)",
-                         drawFilm(film, settings, request.tone.value_or(ToneCurve::Gamma))});
+                         drawFilm(film, settings, request.file.options().tone)});
     }
     const Drawing sheet = drawSheet(tiles);
     finished.width = sheet.width;

@@ -184,12 +184,31 @@ py::dict layersOf(const py::object &self) {
     return layers;
 }
 
-hyalite::Image imageOf(const py::object &pixels) {
+hyalite::Image imageOf(const py::object &pixels, const py::object &alpha) {
     constexpr const char *allowed = "(height, width, 3) of numbers, linear RGB";
     const auto array = arrayOf<float>(pixels, "pixels", allowed, "fiu");
     if (array.ndim() != 3 || array.shape(2) != 3)
         refuse("pixels", shapeOf(array), allowed);
-    return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), spanOf(array)};
+    const auto width = static_cast<int>(array.shape(1));
+    const auto height = static_cast<int>(array.shape(0));
+    if (alpha.is_none())
+        return {width, height, spanOf(array)};
+    constexpr const char *allowedAlpha = "(height, width) of numbers in [0, 1]";
+    const auto opacity = arrayOf<float>(alpha, "alpha", allowedAlpha, "fiu");
+    if (opacity.ndim() != 2 || opacity.shape(0) != height || opacity.shape(1) != width)
+        refuse("alpha", shapeOf(opacity), allowedAlpha);
+    return {width, height, spanOf(array), spanOf(opacity)};
+}
+
+/// Returns what the file has lost.
+std::vector<std::string> save(const hyalite::Image &image, const std::string &path, const std::string &tone,
+                              bool isHalf, const std::string &compression) {
+    std::vector<std::string> losses;
+    released([&] {
+        image.save(path,
+                   {tone, isHalf, compression, [&](const std::string &text) { losses.push_back(text); }});
+    });
+    return losses;
 }
 
 void defineImage(py::module_ &module) {
@@ -214,6 +233,13 @@ void defineImage(py::module_ &module) {
                                    const auto &image = self.cast<const hyalite::Image &>();
                                    return viewOf(image.pixels(), shape(image), self);
                                })
+        .def_property_readonly("alpha",
+                               [](const py::object &self) -> py::object {
+                                   const auto &image = self.cast<const hyalite::Image &>();
+                                   if (image.alpha().empty())
+                                       return py::none();
+                                   return viewOf(image.alpha(), {image.height(), image.width()}, self);
+                               })
         .def_property_readonly("variance",
                                [shape](const py::object &self) -> py::object {
                                    const auto &image = self.cast<const hyalite::Image &>();
@@ -229,8 +255,7 @@ void defineImage(py::module_ &module) {
                                    return viewOf(image.samples(), {image.height(), image.width()}, self);
                                })
         .def_property_readonly("layers", &layersOf)
-        .def("save", [](const hyalite::Image &image, const std::string &path,
-                        const std::string &tone) { released([&] { image.save(path, tone); }); })
+        .def("save", &save)
         .def("png", [](const hyalite::Image &image, const std::string &tone) {
             return py::bytes(released([&] { return image.png(tone); }));
         });
@@ -357,6 +382,7 @@ py::dict differenceOf(const hyalite::Difference &difference) {
                     "psnr"_a = difference.psnrDecibels, "ssim"_a = difference.ssim,
                     "flip"_a = difference.flip, "flip_map"_a = map(difference.flipMap),
                     "ssim_map"_a = map(difference.ssimMap), "error_map"_a = map(difference.errorMap),
+                    "alpha_max"_a = difference.alphaMax, "alpha_mean"_a = difference.alphaMean,
                     "report"_a = parsed(difference.json));
 }
 

@@ -235,6 +235,42 @@ TEST(ApiImage, IsSavedAndReadAgain) {
     expectError(ErrorKind::Usage, "3 of each pixel", [] { Image(2, 2, std::array<float, 3>{}); });
 }
 
+TEST(ApiImage, KeepsAlphaInFilesThatHaveIt) {
+    const std::vector<float> pixels{0.25f, 0.125f, 0.0f, 0.5f, 1e6f, 0.0f};
+    const std::vector<float> alpha{0.5f, 1.0f};
+    const Image image(2, 1, pixels, alpha);
+    EXPECT_TRUE(haveEqualBits(image.alpha(), alpha));
+    const std::string name = (std::filesystem::temp_directory_path() / "hyalite-alpha").string();
+    std::vector<std::string> warnings;
+    SaveOptions options;
+    options.warning = [&](const std::string &text) { warnings.push_back(text); };
+    image.save(name + ".exr", options);
+    EXPECT_TRUE(haveEqualBits(Image::load(name + ".exr").alpha(), alpha));
+    image.save(name + ".png", options);
+    EXPECT_EQ(Image::load(name + ".png").alpha()[0], 128.0f / 255.0f);
+    EXPECT_TRUE(warnings.empty());
+    image.save(name + ".hdr", options);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find(name + ".hdr: HDR has no alpha"), std::string::npos) << warnings[0];
+    options.half = true;
+    options.compression = "piz";
+    image.save(name + ".exr", options);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[1].find("1 value is beyond 65504"), std::string::npos) << warnings[1];
+    EXPECT_EQ(Image::load(name + ".exr").pixels()[4], 65504.0f);
+    options.compression = "pizz";
+    expectError(ErrorKind::Usage, "compression", [&] { image.save(name + ".exr", options); });
+    for (const char *extension : {".exr", ".png", ".hdr"})
+        std::filesystem::remove(name + extension);
+    expectError(ErrorKind::Usage, "alpha", [&] { Image(2, 1, pixels, std::array<float, 3>{}); });
+    EXPECT_TRUE(Image(2, 1, pixels).alpha().empty());
+    const Difference difference = diff(image, Image(2, 1, pixels));
+    EXPECT_FALSE(difference.isIdentical);
+    EXPECT_EQ(difference.differingPixels, 0u);
+    EXPECT_EQ(difference.alphaMax, 0.5);
+    EXPECT_EQ(difference.alphaMean, 0.25);
+}
+
 TEST(ApiChecks, TellHowImagesDiffer) {
     const std::vector<float> dark(3 * 16 * 16, 0.25f);
     std::vector<float> light(dark);

@@ -68,7 +68,7 @@ TEST(Film, LayersAreVarianceAndSamples) {
     EXPECT_EQ(layers[0].name, "variance");
     EXPECT_EQ(layers[0].channels, "RGB");
     EXPECT_EQ(layers[1].name, "samples");
-    EXPECT_EQ(layers[1].channels, "");
+    EXPECT_EQ(layers[1].channels, "Y");
     std::vector<float> row(6);
     layers[0].fillRow(0, row);
     EXPECT_EQ(row[0], 0.25f);
@@ -78,11 +78,11 @@ TEST(Film, LayersAreVarianceAndSamples) {
     layers[0].fillRow(1, row);
     EXPECT_TRUE(std::isnan(row[0]));
     EXPECT_EQ(row[3], 1.0f);
-    row.resize(2);
-    layers[1].fillRow(0, row);
-    EXPECT_EQ(row, (std::vector{2.0f, 1.0f}));
-    layers[1].fillRow(1, row);
-    EXPECT_EQ(row, (std::vector{0.0f, 3.0f}));
+    std::vector<std::uint32_t> counts(2);
+    layers[1].fillWholeRow(0, counts);
+    EXPECT_EQ(counts, (std::vector{2u, 1u}));
+    layers[1].fillWholeRow(1, counts);
+    EXPECT_EQ(counts, (std::vector{0u, 3u}));
 }
 
 TEST(Film, ThereIsNoVarianceOfSingleSamples) {

@@ -22,11 +22,23 @@ void readOne(const std::filesystem::path &path, const std::string &layer, std::s
     require(peak.bytes() <= readingBytesMax(sizeBytes), "more memory than may be taken for such a file");
 }
 
+void readOthers(const std::filesystem::path &path, std::size_t sizeBytes) {
+    const HeapPeak peak;
+    static_cast<void>(refusalOf([&] {
+        const AlphaImage read = readExrWithAlpha(InputFile(path));
+        require(read.alpha.empty() || read.alpha.size() == read.image.pixels().size(),
+                "alpha of some pixels");
+    }));
+    static_cast<void>(refusalOf([&] { (void)readExrWhole(InputFile(path), "samples"); }));
+    require(peak.bytes() <= readingBytesMax(sizeBytes), "more memory than may be taken for such a file");
+}
+
 void run(std::string_view content) {
     static const TemporaryFolder folder;
     const std::filesystem::path path = folder.write("input.exr", content);
     for (const char *layer : {"", "variance", "samples"})
         readOne(path, layer, content.size());
+    readOthers(path, content.size());
 }
 
 } // namespace

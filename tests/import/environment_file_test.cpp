@@ -29,7 +29,7 @@ class EnvironmentFile : public ::testing::Test {
         Image image(2, 1);
         image.pixels() = {left, right};
         AtomicFile file(folder / name);
-        writeImage(file, imageFormatOf(name), image, 0.0, ToneCurve::Srgb);
+        writeImage(file, imageFormatOf(name), image, 0.0, {.tone = ToneCurve::Srgb});
         file.commit();
         return readEnvironmentImage(folder / name);
     }

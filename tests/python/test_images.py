@@ -61,6 +61,36 @@ def test_an_image_of_own_pixels_is_a_copy():
     assert image.variance is None and image.samples is None and image.layers == {} and image.is_finished
 
 
+def test_alpha_is_an_array_beside_the_pixels(tmp_path):
+    alpha = np.array([[0, 0.5, 1]], np.float32)
+    image = hyalite.Image(alpha[..., None] * [0.25, 0.5, 0.75], alpha)
+    assert equal(image.alpha, alpha) and image.pixels.shape == np.asarray(image).shape == (1, 3, 3)
+    assert hyalite.Image(image.pixels).alpha is None
+    for name in ["a.exr", "a.png"]:
+        image.save(tmp_path / name)
+        loaded = hyalite.load_image(tmp_path / name)
+        assert np.abs(loaded.alpha - alpha).max() < 1 / 255
+    assert (tmp_path / "a.png").read_bytes() == image._repr_png_()
+    assert not loaded.pixels[0, 0].any() and equal(loaded.pixels[0, 1], loaded.pixels[0, 2])  # straight
+    difference = hyalite.diff(image, image.pixels)
+    assert (difference.identical, difference.differing_pixels, difference.alpha_max) == (False, 0, 1)
+    assert difference.report["alpha"]["inTest"] is False and difference.alpha_mean == 0.5
+    with pytest.raises(hyalite.UsageError, match="alpha"):
+        hyalite.Image(image.pixels, alpha.T)
+
+
+def test_what_a_file_loses_is_a_warning(tmp_path):
+    image = hyalite.Image(np.full((1, 2, 3), [0.1, 1e6, 2]), np.ones((1, 2)))
+    with pytest.warns(UserWarning, match="HDR has no alpha"):
+        image.save(tmp_path / "a.hdr")
+    with pytest.warns(UserWarning, match="2 values are beyond 65504"):
+        image.save(tmp_path / "a.exr", half=True, compression="piz")
+    loaded = hyalite.load_image(tmp_path / "a.exr").pixels
+    assert equal(loaded[0, 0], np.array([np.float16(0.1), 65504, 2], np.float32))
+    with pytest.raises(hyalite.UsageError, match='compression.*"piz"'):
+        image.save(tmp_path / "a.exr", compression="pizz")
+
+
 @pytest.mark.parametrize("pixels", [
     np.zeros((2, 2)), np.zeros((2, 2, 4)), np.zeros((0, 0, 3)), np.zeros((2, 2, 3), complex),
     np.zeros((2, 2, 3), bool), np.zeros((2, 2, 3), object), [[[1, 2, 3], [4]]], "text", None,

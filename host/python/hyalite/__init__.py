@@ -26,6 +26,7 @@ import json
 import operator
 import os
 import threading
+import warnings
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _hyalite
@@ -99,9 +100,10 @@ def _seconds(limit: Optional[float]) -> Optional[float]:
 class Image:
     """Pixels, and what is known of them. They do not change: copy the arrays to work on them."""
 
-    def __init__(self, pixels: ArrayLike):
-        """An image of one's own pixels: (height, width, 3), linear RGB."""
-        self._image = pixels if isinstance(pixels, _hyalite.Image) else _hyalite.Image(pixels)
+    def __init__(self, pixels: ArrayLike, alpha: Optional[ArrayLike] = None):
+        """An image of one's own pixels: (height, width, 3), linear RGB; multiplied by `alpha`, (height, width), if it is
+        given."""
+        self._image = pixels if isinstance(pixels, _hyalite.Image) else _hyalite.Image(pixels, alpha)
 
     @property
     def pixels(self) -> NDArray[np.float32]:
@@ -114,6 +116,12 @@ class Image:
         if dtype is not None and pixels.dtype != dtype:
             return pixels.astype(dtype)
         return pixels.copy() if copy else pixels
+
+    @property
+    def alpha(self) -> Optional[NDArray[np.float32]]:
+        """Opacity in [0, 1], (height, width), by which `pixels` are multiplied, unless they are those of a PNG. None of
+        an opaque image."""
+        return self._image.alpha
 
     @property
     def variance(self) -> Optional[NDArray[np.float32]]:
@@ -173,10 +181,25 @@ class Image:
     def __deepcopy__(self, memo: Any) -> Image:
         return self
 
-    def save(self, path: Union[str, os.PathLike[str]], tone: str = "gamma") -> None:
-        """Writes a .png, .exr, .hdr or .pfm file, which appears whole or not at all. An EXR has the layers. `tone` is
-        a PNG's curve: "gamma", "srgb", "aces" or "agx"."""
-        self._image.save(os.fsencode(path), tone)
+    def save(
+        self,
+        path: Union[str, os.PathLike[str]],
+        tone: str = "gamma",
+        *,
+        half: bool = False,
+        compression: str = "zip",
+    ) -> None:
+        """Writes a .png, .exr, .hdr or .pfm file, which appears whole or not at all. An EXR has the layers; PNG and EXR
+        have alpha.
+
+        tone: a PNG's curve, "gamma", "srgb", "aces" or "agx".
+        half: an EXR's colours are 16-bit floats, at most 65504; data stay 32-bit.
+        compression: an EXR's; "none", "rle", "zips", "zip" and "piz" keep every bit, "pxr24", "b44", "b44a", "dwaa" and
+        "dwab" do not.
+
+        What the file loses is a warning."""
+        for loss in self._image.save(os.fsencode(path), tone, bool(half), str(compression)):
+            warnings.warn(loss, stacklevel=2)
 
     def png(self, tone: str = "gamma") -> bytes:
         """The bytes of a PNG."""
@@ -190,7 +213,7 @@ class Image:
 
 
 def load_image(path: Union[str, os.PathLike[str]]) -> Image:
-    """Reads the colours of a PNG, OpenEXR, Radiance or PFM file."""
+    """Reads colours and alpha of a PNG, OpenEXR, Radiance or PFM file."""
     return Image(_hyalite.Image.load(os.fsencode(path)))
 
 
@@ -412,6 +435,10 @@ class Difference(NamedTuple):
     """Of the window around each pixel; NaN near the edges."""
     error_map: NDArray[np.float32]
     """Squared errors."""
+    alpha_max: float
+    """Largest difference of alpha; an image without alpha is opaque."""
+    alpha_mean: float
+    """Mean absolute difference of alpha."""
     report: Dict[str, Any]
     """All metrics, as `hyalite diff --report` has them."""
 
@@ -443,7 +470,8 @@ def _image_of(image: Union[Image, ArrayLike, os.PathLike[str]]) -> Any:
 
 
 def diff(reference: Union[Image, ArrayLike, str], test: Union[Image, ArrayLike, str]) -> Difference:
-    """Compares two images of one size; each may be an Image, an array (height, width, 3) of linear RGB, or a file."""
+    """Compares two images of one size; each may be an Image, an array (height, width, 3) of linear RGB, or a file. Colours
+    are compared over black."""
     return Difference(**_hyalite.diff(_image_of(reference), _image_of(test)))
 
 
