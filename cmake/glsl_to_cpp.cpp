@@ -39,7 +39,8 @@ struct Translated : Declaration {
 const std::set<std::string> sceneWords{"frame",        "scattering",  "texturing",    "anyHit",
                                        "lighting",     "samplerKind", "camera",       "emitterCount",
                                        "hasTriangles", "hasNormals",  "hasInstances", "hasEmission",
-                                       "hasLightTree", "treeSpheres", "sphereCount",  "infiniteEmitterCount"};
+                                       "hasLightTree", "treeSpheres", "sphereCount",  "infiniteEmitterCount",
+                                       "placeCount"};
 const std::map<std::string, std::string> types{
     {"float", "Real"}, {"vec2", "Vec2<Real>"}, {"vec3", "Vec3<Real>"}, {"vec4", "Vec4<Real>"}};
 

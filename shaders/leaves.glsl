@@ -22,6 +22,7 @@
 #include "shaders/textures/texture.glsl"
 #include "shaders/textures/normal_map.glsl"
 #include "shaders/surface/hit.glsl"
+#include "shaders/surface/places.glsl"
 #include "shaders/lights/emitter_pdf.glsl"
 #include "shaders/lights/spot.glsl"
 #include "shaders/lights/environment.glsl"

@@ -89,6 +89,8 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
             : 0;
     constants[layout::constantHasPairs] = config.traversal == Traversal::SkipList && scene.hasPairs;
     constants[layout::constantView] = rowOf(job.settings.integrator).view;
+    constants[layout::constantPlaceCount] = static_cast<std::uint32_t>(scene.places.size());
+    constants[layout::constantTallies] = rowOf(job.settings.integrator).tallies();
     constants[layout::constantSampler] = samplerOf(job.settings);
     constants[layout::constantStackSize] = plan.stackSize;
     constants[layout::constantIsTracing] = job.isTraced;

@@ -1,5 +1,6 @@
 #include "host/packing/packed_scene.h"
 
+#include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/leaves/leaves.h"
 #include "host/packing/emitters.h"
@@ -13,6 +14,7 @@
 #include "host/packing/surface_features.h"
 #include "host/packing/texture_rows.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -27,6 +29,7 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace hyalite::core {
 
@@ -278,6 +281,15 @@ void packSpheres(const Scene &scene, const Bvh &bvh, const std::vector<std::uint
     }
 }
 
+/// Names, and the numbers of places and materials.
+void packNumbers(const Scene &scene, const std::vector<std::uint32_t> &packedMaterial, PackedScene &packed) {
+    NumberedScene numbered = numberScene(scene, packed.frame.firstTriangleId);
+    packed.names = std::move(numbered.names);
+    packed.places = std::move(numbered.places);
+    for (std::size_t i = 0; i < packedMaterial.size(); ++i)
+        packed.materials[packedMaterial[i]].number = numbered.materials[i];
+}
+
 /// The tables of directional albedo, which are the first lookup rows.
 void packEnergies(const Scene &scene, PackedScene &packed) {
     if ((packed.scattering & layout::scattersAtRough) != 0) {
@@ -321,7 +333,7 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
 std::uint64_t PackedScene::arraysHash() const {
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
-        material.emitterPdf = 0.0f; // likewise
+        material.emitterPdf = 0.0f, material.number = 0; // likewise, and on names
     std::vector<layout::SphereRecord> seenSpheres = spheres;
     for (layout::SphereRecord &sphere : seenSpheres)
         sphere.emitter = sphere.primitiveId = 0;
@@ -365,6 +377,38 @@ std::uint64_t PackedScene::arraysHash() const {
     return instances.empty() ? hash : hashBytes(std::as_bytes(std::span(&instanceSum, 1)), hash);
 }
 
+std::uint64_t PackedScene::namesHash() const {
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(places)));
+    for (const layout::MaterialRecord &material : materials)
+        hash = hashBytes(std::as_bytes(std::span(&material.number, 1)), hash);
+    for (const std::vector<std::string> *list : {&names.objects, &names.assets, &names.materials})
+        for (const std::string &name : *list)
+            hash = hashBytes(std::as_bytes(std::span(name)), hash + name.size());
+    return hash;
+}
+
+std::vector<std::string> PackedScene::namesOf(Integrator view) const {
+    const IntegratorRow &row = rowOf(view);
+    std::vector<std::string> shown;
+    if (!row.isOfNumbers())
+        return shown;
+    if (row.view == layout::viewMaterial)
+        shown = names.materials;
+    else if (row.view == layout::viewAsset)
+        shown = names.withSpheres(names.assets);
+    else
+        shown = names.withSpheres(names.objects);
+    if (row.view == layout::viewPlace) {
+        const std::vector<std::string> objects = std::exchange(shown, {});
+        for (const layout::PlaceRecord &place : places)
+            shown.push_back(objects[place.object - 1]);
+    }
+    if (shown.size() > layout::maxNumber)
+        throw Error(ErrorKind::LimitExceeded, fmt::format("layer {}: found {} numbers; allowed: at most {}",
+                                                          row.name, shown.size(), layout::maxNumber));
+    return shown;
+}
+
 std::uint32_t samplerOf(const RenderSettings &settings) {
     if (settings.sampler == SamplerKind::Centre)
         return layout::samplerCentre;
@@ -397,6 +441,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     for (const std::uint32_t index : order)
         packed.materials.push_back(packMaterial(scene.materials[index]));
     packSpheres(scene, bvh, packedMaterial, packed);
+    packNumbers(scene, packedMaterial, packed);
     for (const TriangleMesh &mesh : scene.meshes)
         useMaterials(scene, mesh, packed);
     for (const TriangleMesh &prototype : scene.prototypes)

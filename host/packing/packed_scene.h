@@ -4,6 +4,7 @@
 #include "host/base/unset_vector.h"
 #include "host/bvh/bvh.h"
 #include "host/scene/scene.h"
+#include "host/scene/scene_names.h"
 #include "host/scene/settings.h"
 #include "shaders/layout/buffers.h"
 
@@ -52,6 +53,7 @@ struct PackedScene {
     /// All triangles, if they are few, in a closed room, with nothing else in the tree.
     std::vector<layout::TrianglePair> trianglePairs;
     int treeDepth = 0; ///< subtrees that can wait on a traversal stack
+    SceneNames names;  ///< of the numbers of places and materials
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
 #define HYALITE_MEMBER(number, value, name, Record, fetch) RecordVector<layout::Record> name;
@@ -95,8 +97,15 @@ struct PackedScene {
     [[nodiscard]] std::uint64_t contentHash(std::uint64_t ofArrays) const;
     [[nodiscard]] std::uint64_t contentHash() const { return contentHash(arraysHash()); }
 
-    /// Of all but `frame` and `camera`: what scenes of one serial number have in common.
+    /// Of all but `frame`, `camera`, names and their numbers: what scenes of one serial number have in common.
     [[nodiscard]] std::uint64_t arraysHash() const;
+
+    /// Of names and their numbers.
+    [[nodiscard]] std::uint64_t namesHash() const;
+
+    /// The names of the numbers that a view shows, from 1 on; none for other views. Places have those of their objects.
+    /// Throws Error{LimitExceeded} where there are more numbers than floats can tell apart, layout::maxNumber.
+    [[nodiscard]] std::vector<std::string> namesOf(Integrator view) const;
 };
 
 /// The frame of a render of the scene.

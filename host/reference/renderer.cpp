@@ -1,5 +1,6 @@
 #include "host/reference/renderer.h"
 
+#include "host/film/tally.h"
 #include "host/reference/path.h"
 #include "host/reference/view.h"
 #include "host/reference/whitted.h"
@@ -45,6 +46,20 @@ template <class Real, class SampleIntegrator> Real transparencyOf(const SampleIn
     return Real(0);
 }
 
+/// Counts samples by their numbers until `film` has `sampleCount`, or `isLast`, called after each, returns true.
+/// Returns the number of added samples.
+template <class SampleIntegrator, class IsLast>
+std::uint32_t tallyPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
+                         layout::FilmPixel &film, const IsLast &isLast) {
+    const std::uint32_t countBefore = film.sampleCount;
+    bool isStopped = false;
+    while (film.sampleCount < sampleCount && !isStopped) {
+        tallySample(film, static_cast<std::uint32_t>(integrator.sampleRadiance(pixel, film.sampleCount).x));
+        isStopped = isLast();
+    }
+    return film.sampleCount - countBefore;
+}
+
 /// Adds samples to `film` until it has `sampleCount`, the integrator abandons one, or `isLast`, called after each,
 /// returns true. Returns the number of added samples.
 template <class Real, class SampleIntegrator, class IsLast>
@@ -79,9 +94,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
     FilmRenderer(const MakeIntegrator &makeIntegrator, const RenderSettings &settings, Film begun,
                  const Options &options, const RenderHooks &hooks)
         : makeIntegrator_(makeIntegrator), options_(options), hooks_(hooks),
-          sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)), result_{std::move(begun),
-                                                                                      {},
-                                                                                      {}},
+          sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
+          tallies_(rowOf(settings.integrator).tallies()), result_{std::move(begun), {}, {}},
           pixelCount_(static_cast<std::int64_t>(result_.film.pixels.size())) {
         for (const layout::FilmPixel &pixel : result_.film.pixels)
             finishedSamples_ += pixel.sampleCount;
@@ -136,11 +150,13 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
         for (std::int64_t i = run * runLength; i < end && !isPaused_ && !isStopped_; ++i) {
             const glm::uvec2 pixel(static_cast<std::uint32_t>(crop.x0 + i % crop.width()),
                                    static_cast<std::uint32_t>(crop.y0 + i / crop.width()));
-            addedSamples += renderPixel<Real>(
-                integrator, pixel, sampleCount_, result_.film.pixels[static_cast<std::size_t>(i)], [this] {
-                    // A pause inside a pixel would round its sums in double precision.
-                    return isToStop() || (std::is_same_v<Real, float> && isToPause());
-                });
+            layout::FilmPixel &film = result_.film.pixels[static_cast<std::size_t>(i)];
+            const auto isLast = [this] {
+                // A pause inside a pixel would round its sums in double precision.
+                return isToStop() || (std::is_same_v<Real, float> && isToPause());
+            };
+            addedSamples += tallies_ ? tallyPixel(integrator, pixel, sampleCount_, film, isLast)
+                                     : renderPixel<Real>(integrator, pixel, sampleCount_, film, isLast);
             (void)isToPause();
         }
         const std::lock_guard lock(progressMutex_); // of this render alone: a callback may render, too
@@ -173,6 +189,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
     const Options &options_;
     const RenderHooks &hooks_;
     std::uint32_t sampleCount_;
+    bool tallies_;
     Result result_;
     std::int64_t pixelCount_;
     std::int64_t firstRun_ = 0; ///< all before it are finished

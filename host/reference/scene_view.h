@@ -26,6 +26,7 @@ template <class Real> struct SceneView {
           lighting(packedScene.lighting), camera(packedScene.camera),
           emitterCount(static_cast<uint>(packedScene.emitters.size())),
           infiniteEmitterCount(packedScene.infiniteEmitterCount),
+          placeCount(static_cast<uint>(packedScene.places.size())),
           sphereCount(static_cast<uint>(packedScene.loopSpheres.size())),
           treeSpheres(packedScene.treeSpheres), hasTriangles(packedScene.hasTriangles),
           hasNormals(packedScene.hasNormals), hasInstances(!packedScene.instances.empty()),
@@ -53,6 +54,7 @@ template <class Real> struct SceneView {
     uint camera;
     uint emitterCount;
     uint infiniteEmitterCount;
+    uint placeCount;
     uint sphereCount; ///< outside the tree
     uint treeSpheres;
     bool hasTriangles;

@@ -57,6 +57,11 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         case layout::viewShadow:
             return catchesShadows(material) ? catchShadow(ray, surface, hit.primitive)
                                             : show(Vec3<Real>(Real(0)));
+        case layout::viewObject:
+        case layout::viewMaterial:
+        case layout::viewAsset:
+        case layout::viewPlace:
+            return show(Vec3<Real>(Real(numberOf(scene_, view_, hit.primitive, materialIndex))));
         default:
             return seeSky(ray, surface, hit.primitive);
         }

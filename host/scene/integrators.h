@@ -6,12 +6,30 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace hyalite::core {
 
-enum class Integrator { Whitted, Path, AmbientOcclusion, Normal, Depth, Albedo, Id, Uv, Shadow, Cost };
+enum class Integrator {
+    Whitted,
+    Path,
+    AmbientOcclusion,
+    Normal,
+    Depth,
+    Albedo,
+    Id,
+    Uv,
+    Shadow,
+    Cost,
+    ObjectNumber,
+    MaterialNumber,
+    PlaceNumber,
+    ObjectMatte,
+    MaterialMatte,
+    AssetMatte
+};
 
 struct IntegratorRow {
     Integrator integrator;
@@ -23,9 +41,17 @@ struct IntegratorRow {
     /// As a layer it has one sample, at the pixel's centre: a mean of depths or normals belongs to no surface.
     bool isOfCentres = false;
     bool showsLight = false;     ///< a sample is radiance, and the background may be transparent
+    /// Of a view of numbers whose samples are counted, as a tally (host/film/tally.h): the name of the Cryptomatte.
+    std::string_view cryptomatte{};
     bool followsPaths = false;   ///< over several segments: maxDepth bounds them
     bool splitsAtGlass = false;  ///< both branches: rays wait
     bool aimsAtEmitters = false; ///< needs the scene's emitters, and the energy tables of microfacets
+
+    /// Whether its samples are numbers, which are for layers, not for pictures.
+    [[nodiscard]] constexpr bool isOfNumbers() const {
+        return kernel == "view" && view >= layout::viewObject;
+    }
+    [[nodiscard]] constexpr bool tallies() const { return !cryptomatte.empty(); }
 };
 
 /// In the order of help texts and documents.
@@ -98,7 +124,56 @@ inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
      .kernel = "whitted",
      .followsPaths = true,
      .splitsAtGlass = true},
+    {.integrator = Integrator::ObjectNumber,
+     .name = "object-id",
+     .help = "number of the object: what has a name in the input",
+     .kernel = "view",
+     .view = layout::viewObject,
+     .layerChannels = "Y",
+     .isOfCentres = true},
+    {.integrator = Integrator::MaterialNumber,
+     .name = "material-id",
+     .help = "number of the material",
+     .kernel = "view",
+     .view = layout::viewMaterial,
+     .layerChannels = "Y",
+     .isOfCentres = true},
+    {.integrator = Integrator::PlaceNumber,
+     .name = "instance-id",
+     .help = "number of the sphere, the mesh, or the place of a mesh",
+     .kernel = "view",
+     .view = layout::viewPlace,
+     .layerChannels = "Y",
+     .isOfCentres = true},
+    {.integrator = Integrator::ObjectMatte,
+     .name = "crypto-object",
+     .help = "Cryptomatte of objects",
+     .kernel = "view",
+     .view = layout::viewObject,
+     .layerChannels = "rgba",
+     .cryptomatte = "CryptoObject"},
+    {.integrator = Integrator::MaterialMatte,
+     .name = "crypto-material",
+     .help = "Cryptomatte of materials",
+     .kernel = "view",
+     .view = layout::viewMaterial,
+     .layerChannels = "rgba",
+     .cryptomatte = "CryptoMaterial"},
+    {.integrator = Integrator::AssetMatte,
+     .name = "crypto-asset",
+     .help = "Cryptomatte of assets: the outermost nodes above objects",
+     .kernel = "view",
+     .view = layout::viewAsset,
+     .layerChannels = "rgba",
+     .cryptomatte = "CryptoAsset"},
 });
+
+/// How many rows are of pictures; the others are of layers only.
+inline constexpr std::size_t pictureIntegratorCount =
+    integratorTable.size() -
+    static_cast<std::size_t>(std::ranges::count_if(integratorTable, &IntegratorRow::isOfNumbers));
+static_assert(std::ranges::is_partitioned(integratorTable,
+                                          [](const IntegratorRow &row) { return !row.isOfNumbers(); }));
 
 [[nodiscard]] constexpr const IntegratorRow &rowOf(Integrator integrator) {
     return *std::ranges::find(integratorTable, integrator, &IntegratorRow::integrator);

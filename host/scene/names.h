@@ -26,7 +26,13 @@ template <class Value, class Row, std::size_t count>
 }
 
 inline constexpr auto materialNames = namesOf(materialTable, &MaterialRow::kind);
-inline constexpr auto integratorNames = namesOf(integratorTable, &IntegratorRow::integrator);
+/// Those of pictures: the first rows.
+inline constexpr auto integratorNames = [] {
+    std::array<Name<Integrator>, pictureIntegratorCount> names{};
+    std::ranges::copy_n(namesOf(integratorTable, &IntegratorRow::integrator).begin(), names.size(),
+                        names.begin());
+    return names;
+}();
 inline constexpr std::array<Name<CameraKind>, 3> cameraNames{{{"perspective", CameraKind::Perspective},
                                                               {"orthographic", CameraKind::Orthographic},
                                                               {"panorama", CameraKind::Panorama}}};

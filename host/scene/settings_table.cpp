@@ -43,9 +43,11 @@ template <class Value> Value valueFrom(const nlohmann::json &json, const ChoiceS
 std::string helpText(const Setting &setting) {
     if (std::holds_alternative<ChoiceSetting<Integrator>>(setting.value)) {
         std::vector<std::string> rows;
-        rows.reserve(integratorTable.size());
-        for (const IntegratorRow &row : integratorTable)
+        rows.reserve(integratorNames.size());
+        for (const auto &[name, integrator] : integratorNames) {
+            const IntegratorRow &row = rowOf(integrator);
             rows.push_back(fmt::format("{}: {}", row.name, row.help));
+        }
         return fmt::format("{}. {}", setting.help, fmt::join(rows, "; "));
     }
     if (setting.integrators.empty())

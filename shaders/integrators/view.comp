@@ -118,6 +118,8 @@ void shadeHit(uint slot) {
     }
     if (view == viewShadow && catchesShadows(fetchMaterial(materialIndex)))
         catchShadow(slot, surface);
+    if (view >= viewObject)
+        show(slot, vec3(floatOf(numberOf(view, path[slot].hitPrimitive, materialIndex))));
     if (view == viewOcclusion) {
         bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
         if (isBehind) {

@@ -30,7 +30,8 @@ const uint bindingNodes = 4u; // node pairs, or skip nodes
     ARRAY(bindingTextures,   11u, textures,   TextureRow,     fetchTextureRow) \
     ARRAY(bindingInstances,  12u, instances,  InstanceRecord, fetchInstance) \
     ARRAY(bindingLights,     13u, lights,     LightRecord,    fetchLight) \
-    ARRAY(bindingLightNodes, 14u, lightNodes, LightNode,      fetchLightNode)
+    ARRAY(bindingLightNodes, 14u, lightNodes, LightNode,      fetchLightNode) \
+    ARRAY(bindingPlaces,     15u, places,     PlaceRecord,    fetchPlace)
 // clang-format on
 
 #define HYALITE_BINDING(number, value, name, Record, fetch) const uint number = value;

@@ -130,6 +130,21 @@ struct InstanceRecord {
     uint listEnd;
 };
 
+// ---- Places
+//
+// A place is a sphere, a mesh or an instance: primitives whose ids follow each other. Records are in the order of their
+// first ids; the number of a place is its index + 1. Objects, assets and materials are numbered by their names from 1 on
+// (host/scene/scene_names.h), so that things of one name have one number.
+
+struct PlaceRecord {
+    uint firstPrimitive; // id
+    uint object;         // number
+    uint asset;          // number
+    uint pad0;
+};
+
+const uint maxNumber = 1u << 24u; // floats have all integers up to it
+
 // ---- The tree
 //
 // An inner node holds the boxes of both children, so that one fetch decides about two subtrees. A child is an inner
@@ -210,7 +225,7 @@ struct MaterialRecord {
     // path: pdf of a light sample at a point of the emitter, per unit of area
     float emitterPdf;
     vec3 absorption; // path: of this dielectric, per unit of length
-    uint pad0;
+    uint number;     // of its name, from 1 on
     // The rest is read only where constantScattering asks for it.
     vec3 conductorIndex;      // real part of the refractive index
     float alpha;              // of GGX: roughness squared; 0: smooth
@@ -494,6 +509,11 @@ const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
 const uint viewCoordinates = 5u; // fractional parts of the texture coordinates
 const uint viewShadow = 6u; // of shadow catchers: 1, a light sample, and what of it is blocked
+// From here on numbers, from 1 on; 0 for nothing.
+const uint viewObject = 7u;
+const uint viewMaterial = 8u;
+const uint viewAsset = 9u;
+const uint viewPlace = 10u;
 
 // ---- Frame constants: the same for a whole render
 
@@ -590,6 +610,14 @@ struct FilmPixel {
     vec3 squaresRest;
     float transparencyRest;
 };
+
+// Where constantTallies is set, the words of a FilmPixel count samples by their numbers instead: they are pairs of a
+// number and its count, in the order in which the numbers come first, with zeros for those that are free. The pair
+// tallyOthers has the count of samples whose numbers found no pair, then the count of all samples. Samples of number 0 are
+// in no other count.
+const uint tallyPairs = 8u;
+const uint tallyOthers = 1u;
+const uint tallyNumbers = tallyPairs - 1u; // that a pixel keeps apart
 
 // A sample that waits to be added to the film: two records where its transparency is wanted, the second one with that as
 // `radiance.x`.
@@ -757,7 +785,9 @@ const uint constantBroadcasts = 29u;       // subgroups of broadcastLanes exchan
 const uint constantHasPairs = 30u;         // skip lists: leaves may be pairs of triangles
 const uint constantHasNormals = 31u;       // of corners of triangles
 const uint constantAlpha = 32u;            // which background is transparent: alpha...
-const uint constantCount = 33u;
+const uint constantPlaceCount = 33u;
+const uint constantTallies = 34u; // the film counts samples by their numbers
+const uint constantCount = 35u;
 
 const uint broadcastLanes = 16u;
 
@@ -775,6 +805,7 @@ static_assert(sizeof(TriangleRecord) == 48 && offsetof(TriangleRecord, flags) ==
 static_assert(sizeof(TrianglePair) == 64 && offsetof(TrianglePair, v3) == 48);
 static_assert(sizeof(NormalRecord) == 48 && offsetof(NormalRecord, n2) == 32);
 static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) == 96);
+static_assert(sizeof(PlaceRecord) == 16);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
 static_assert(sizeof(MaterialRecord) == 192 && offsetof(MaterialRecord, opacity) == 176);
@@ -791,6 +822,8 @@ static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 byte
 static_assert(sizeof(SampleRecord) == 16);
 static_assert(countMask >= maxPathDepth && sampleIsFinished >= 1u << 4u * bitsPerCount);
 static_assert(sizeof(FilmPixel) == 64 && offsetof(FilmPixel, sumOfSquares) == 32);
+static_assert(sizeof(FilmPixel) == tallyPairs * 2 * sizeof(uint) &&
+              offsetof(FilmPixel, sampleCount) == (2 * tallyOthers + 1) * sizeof(uint));
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
 static_assert(sizeof(PathRecord) == 240 && offsetof(PathRecord, rayTarget) == 208);

@@ -38,6 +38,8 @@ layout(constant_id = constantAlpha) const uint alphaKind = alphaOfNothing;
 layout(constant_id = constantTrianglePairs) const uint trianglePairs = 0u;
 layout(constant_id = constantPathRegeneration) const bool regeneratesPaths = false;
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
+layout(constant_id = constantPlaceCount) const uint placeCount = 1u;
+layout(constant_id = constantTallies) const bool tallies = false;
 layout(constant_id = constantHasPairs) const bool hasPairs = false;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 

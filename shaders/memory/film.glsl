@@ -3,6 +3,8 @@
 // The slots of a pixel share its sums: the slot at lane L of a pixel keeps the sums n with n mod samplesInFlight = L.
 // Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples, 7 the sum of
 // transparency.
+//
+// A film that tallies has counts of samples by their numbers instead (layout.h), which stay in the buffer.
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 
@@ -20,9 +22,37 @@ uint filmWord(uint slot, uint number) {
     return (isSlotUsed[slot] ? filmIndex[slot] : 0u) * filmPixelWords + number + (number & 4u);
 }
 
+// Counts a sample of the pixel by its number: see tallyPairs. Lanes that do not take part change nothing.
+void tallySample(uint slot, uint number, bool takesPart) {
+    uint firstWord = filmIndex[slot] * filmPixelWords;
+    uint pair = tallyOthers;
+    [[unroll]] for (int other = int(tallyPairs) - 1; other >= 0; --other) {
+        uint there = takesPart && other != int(tallyOthers) ? filmWords[firstWord + 2u * uint(other)] : 1u;
+        pair = other != int(tallyOthers) && (there == number || there == 0u) ? uint(other) : pair;
+    }
+    if (!takesPart || number == 0u)
+        return;
+    uint word = firstWord + 2u * pair;
+    if (pair != tallyOthers)
+        filmWords[word] = number;
+    filmWords[word + (pair == tallyOthers ? 0u : 1u)] += 1u;
+}
+
+// Counts the samples in flight, in their order; the slot of the first one does it for all of them.
+void tallySamples(uint slot) {
+    uint numbers[maxSamplesInFlight];
+    exchangeInPixel(uint(path[slot].sampleRadiance.x), numbers);
+    [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
+        tallySample(slot, numbers[lane], isSlotUsed[slot] && sampleLane(slot) == 0u);
+}
+
 // Words are loaded and stored one by one on lavapipe, so that no slot touches more than it has to: there are no rests
 // before the first sample.
 void loadFilm(uint slot) {
+    if (tallies) {
+        filmSampleCount[slot] = filmWords[filmWord(slot, filmSampleCountWord)];
+        return;
+    }
     const uint laneOfCount = filmSampleCountWord & samplesInFlight - 1u;
     uint count = 0u;
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
@@ -40,6 +70,11 @@ void loadFilm(uint slot) {
 }
 
 void storeFilm(uint slot) {
+    if (tallies) {
+        if (isSlotUsed[slot] && sampleLane(slot) == 0u)
+            filmWords[filmWord(slot, filmSampleCountWord)] = filmSampleCount[slot];
+        return;
+    }
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint word = filmWord(slot, number);
@@ -54,6 +89,10 @@ void storeFilm(uint slot) {
 
 // Adds the samples in flight. Slots without a sample add 0, which changes no bit.
 void addSamples(uint slot) {
+    if (tallies) {
+        tallySamples(slot);
+        return;
+    }
     uint red[maxSamplesInFlight];
     uint green[maxSamplesInFlight];
     uint blue[maxSamplesInFlight];

@@ -194,7 +194,7 @@ TEST(PackedScene, ASingleTriangleIsTheRootsLeftLeaf) {
         EXPECT_TRUE(result.hasTriangles);
         EXPECT_EQ(result.sizeBytes(), sizeof(layout::FrameRecord) + sizeof(layout::NodePair) +
                                           sizeof(layout::TriangleRecord) + sizeof(layout::NormalRecord) +
-                                          sizeof(layout::MaterialRecord) +
+                                          sizeof(layout::MaterialRecord) + sizeof(layout::PlaceRecord) +
                                           layout::filterCellCount * sizeof(layout::LookupRow));
     }
 }

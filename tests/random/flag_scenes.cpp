@@ -351,6 +351,11 @@ void addSettings(Rows &rows) {
         rows.value(fmt::format("integrator {}", row.name), row.view, std::move(scene),
                    [view = row.view](const PackedScene &) { return view; });
     }
+    TestScene numbered = base();
+    numbered.settings.integrator = Integrator::PlaceNumber;
+    numbered.spheres.assign(3, {{0.5, 0, 1}, 0.3, 0, false});
+    rows.value("constantPlaceCount", 4, numbered,
+               [](const PackedScene &packed) { return packed.places.size(); });
     const auto sampler = [&](const char *flag, std::uint32_t value, SamplerKind kind, FilterKind filter) {
         TestScene scene = base();
         scene.settings.sampler = kind;

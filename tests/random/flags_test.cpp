@@ -89,7 +89,8 @@ const std::set<std::string> ofDispatches = {"constantWorkgroupSize",
 const std::set<std::string> ofSeveralFlags = {
     "constantSampler", "constantView",      "constantShowsCost",   "constantScattering", "constantLighting",
     "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantAnyHit",     "constantAlpha",
-    "scattersAtRough", "anyHitAlpha",       "texturesMaterials",   "texturesOfLobes",    "texturesSrgb"};
+    "scattersAtRough", "anyHitAlpha",       "texturesMaterials",   "texturesOfLobes",    "texturesSrgb",
+    "constantTallies"};
 
 TEST(Flags, HaveAScene) {
     std::set<std::string> tested;
