@@ -25,15 +25,19 @@ core::ToneCurve toneOf(const std::string &name) {
     return core::chosenFrom(core::toneCurveNames, name, "tone");
 }
 
-/// Values of a layer, and its name as the row of the view has it.
-void addLayer(const core::ViewFilm &view, const core::Layer &layer, Image::Content &content) {
+/// Values of the layers of a view. Names are that of the view's row, or those of the layers of a Cryptomatte.
+void addLayers(const core::ViewFilm &view, Image::Content &content) {
     const core::IntegratorRow &row = core::rowOf(view.view);
     const auto width = static_cast<std::size_t>(view.film.crop.width()) * row.layerChannels.size();
     const int height = view.film.crop.height();
-    std::vector<float> &values = content.layerValues.emplace_back(width * static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y)
-        layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
-    content.layers.push_back({std::string(row.name), std::string(row.layerChannels), values});
+    for (const core::Layer &layer : core::layersOf(view)) {
+        std::vector<float> &values =
+            content.layerValues.emplace_back(width * static_cast<std::size_t>(height));
+        for (int y = 0; y < height; ++y)
+            layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
+        content.layers.push_back(
+            {row.tallies() ? layer.name : std::string(row.name), std::string(row.layerChannels), values});
+    }
 }
 
 void makeFigures(const Image::Content &content) {
@@ -133,10 +137,8 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
             content->isFinished &&
             core::finishedWork(view.film, whole, core::samplesOfView(view.view, spp)).isComplete;
     content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
-    const std::vector<core::Layer> layers = core::viewLayers(content->views);
-    content->layerValues.reserve(layers.size());
-    for (std::size_t i = 0; i < layers.size(); ++i)
-        addLayer(content->views[i], layers[i], *content);
+    for (const core::ViewFilm &view : content->views)
+        addLayers(view, *content);
     return Image(std::move(content));
 }
 

@@ -124,7 +124,8 @@ bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &ob
     }});
     const PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
     requireFilmMemory(scene.crop, 3);
-    const std::string here = identityText(identityOf(scene, *backend, &merger.origin().layers));
+    const std::vector<Integrator> views = merger.origin().views();
+    const std::string here = identityText(identityOf(scene, *backend, &views));
     if (here != merger.identity() || scene.crop != merger.film().crop)
         throw Error(
             ErrorKind::BadInput,

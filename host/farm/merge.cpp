@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/engine/backend.h"
+#include "host/film/tally.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
@@ -48,7 +49,7 @@ Place placeOf(std::span<const Crop> squares, std::size_t index) {
 std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
     const auto samplesOfLayer = [&](std::size_t layer) {
         return static_cast<std::uint32_t>(
-            samplesOfView(origin.layers[layer], static_cast<int>(file.samplesPerPixel)));
+            samplesOfView(origin.layers[layer].view, static_cast<int>(file.samplesPerPixel)));
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < file.pixels.size(); ++i) {
@@ -58,6 +59,14 @@ std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origi
         count += !isFinished;
     }
     return count;
+}
+
+/// Whether all numbers of a tally have names.
+bool haveNames(std::span<const layout::FilmPixel> tallies, std::size_t nameCount) {
+    return std::ranges::all_of(tallies, [&](const layout::FilmPixel &pixel) {
+        return std::ranges::all_of(tallyOf(pixel).numbers,
+                                   [&](const NumberCount &entry) { return entry.number <= nameCount; });
+    });
 }
 
 } // namespace
@@ -71,6 +80,11 @@ void Merger::add(const std::filesystem::path &path) {
             if (origin.layers.size() != file.layers.size())
                 throw Error(ErrorKind::BadInput, fmt::format("it has {} layers and says that they are {}",
                                                              file.layers.size(), origin.layers.size()));
+            for (std::size_t i = 0; i < file.layers.size(); ++i)
+                if (rowOf(origin.layers[i].view).tallies() &&
+                    !haveNames(file.layers[i], origin.layers[i].names.size()))
+                    throw Error(ErrorKind::BadInput, fmt::format("its layer {} has a number without a name",
+                                                                 nameOf(origin.layers[i].view)));
             if (origin.wholeWidth < file.crop.x1 || origin.wholeHeight < file.crop.y1)
                 throw Error(ErrorKind::BadInput, "its crop is larger than its picture");
         } catch (const Error &error) {
@@ -122,8 +136,8 @@ void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
     origin_ = origin;
     partition_.emplace(file.crop, file.part.count);
     film_.emplace(file.crop);
-    for (const Integrator layer : origin.layers)
-        layers_.push_back({layer, Film(file.crop)});
+    for (const PartLayer &layer : origin.layers)
+        layers_.push_back({layer.view, Film(file.crop), layer.names});
 }
 
 std::string Merger::foreignness(const CheckpointFile &file) const {

@@ -55,6 +55,13 @@ std::string PartOrigin::maker() const {
     return fmt::format("{} ({})", excerpt(host, 80), excerpt(device, 160));
 }
 
+std::vector<Integrator> PartOrigin::views() const {
+    std::vector<Integrator> views;
+    for (const PartLayer &layer : layers)
+        views.push_back(layer.view);
+    return views;
+}
+
 std::string hostName() {
     std::array<char, 256> name{};
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown host";
@@ -68,8 +75,11 @@ std::string toText(const PartOrigin &origin) {
                                 {"wholeHeight", origin.wholeHeight},
                                 {"layers", nlohmann::ordered_json::array()},
                                 {"provenance", nlohmann::ordered_json::parse(origin.provenance)}};
-    for (const Integrator layer : origin.layers)
-        json["layers"].push_back(nameOf(layer));
+    for (const PartLayer &layer : origin.layers) {
+        json["layers"].push_back(nameOf(layer.view));
+        if (!layer.names.empty())
+            json["names"][std::string(nameOf(layer.view))] = layer.names;
+    }
     if (origin.projection)
         json["projection"] = {{"worldToCamera", origin.projection->worldToCamera},
                               {"worldToNdc", origin.projection->worldToNdc},
@@ -101,14 +111,17 @@ PartOrigin readPartOrigin(std::string_view text) {
             throw Error(ErrorKind::BadInput, "it says of itself what no render says");
         origin.provenance = provenance.dump();
         const auto integratorOf = [](const nlohmann::ordered_json &word) {
-            const auto named = std::ranges::find(integratorNames, word.get<std::string>(),
-                                                 [](const auto &name) { return std::string(name.first); });
-            if (named == integratorNames.end())
+            const auto row =
+                std::ranges::find(integratorTable, word.get<std::string>(), &IntegratorRow::name);
+            if (row == integratorTable.end())
                 throw Error(ErrorKind::BadInput, fmt::format("there is no integrator {}", word.dump()));
-            return named->second;
+            return row->integrator;
         };
-        for (const nlohmann::ordered_json &word : json.at("layers"))
-            origin.layers.push_back(integratorOf(word));
+        for (const nlohmann::ordered_json &word : json.at("layers")) {
+            PartLayer &layer = origin.layers.emplace_back(integratorOf(word));
+            if (rowOf(layer.view).isOfNumbers() && json.contains("names"))
+                layer.names = json.at("names").value(word.get<std::string>(), layer.names);
+        }
         if (json.contains("projection"))
             origin.projection = projectionOf(json.at("projection"));
         const nlohmann::ordered_json &settings = provenance.at("settings");

@@ -12,13 +12,18 @@
 
 namespace hyalite::core {
 
+struct PartLayer {
+    Integrator view;
+    std::vector<std::string> names{}; ///< of a view of numbers, from 1 on
+};
+
 struct PartOrigin {
     std::string host;               ///< name of the machine
     std::string folder;             ///< in which the command ran
     std::vector<std::string> words; ///< of the command line, the program first
     int wholeWidth = 0;             ///< of the picture that the crop is of, in pixels
     int wholeHeight = 0;
-    std::vector<Integrator> layers;
+    std::vector<PartLayer> layers;
     std::optional<Projection> projection; ///< of the camera; none of a panorama, nor of older parts
     std::string provenance;               ///< of the render, with its device, as JSON
 
@@ -28,6 +33,7 @@ struct PartOrigin {
     bool hasAlpha = false;
     std::string device; ///< its name and driver: "llvmpipe, Mesa 22.3.6"
 
+    [[nodiscard]] std::vector<Integrator> views() const; ///< of the layers
     /// "node7 (llvmpipe, Mesa 22.3.6)".
     [[nodiscard]] std::string maker() const;
 };

@@ -19,7 +19,8 @@ namespace hyalite::core {
 namespace {
 
 constexpr std::string_view magic = "hyalite checkpoint\n";
-constexpr std::uint32_t maxTextBytes = 1u << 16; // of the identity, and of the origin
+constexpr std::uint32_t maxIdentityBytes = 1u << 16;
+constexpr std::uint32_t maxOriginBytes = 1u << 26; // it has the names of the scene, where layers need them
 constexpr std::uint32_t maxLayers = 64;
 
 struct Header {
@@ -117,11 +118,12 @@ class Reader {
         if (header.x0 < 0 || header.y0 < 0 || width < 1 || height < 1 || header.x1 > maxSide ||
             header.y1 > maxSide)
             throw file_.bad(fmt::format("it is damaged: its image would have {} x {} pixels", width, height));
-        for (const std::uint32_t bytes : {header.identityBytes, header.originBytes})
-            if (bytes > maxTextBytes)
+        for (const auto &[bytes, maxBytes] : {std::pair{header.identityBytes, maxIdentityBytes},
+                                              std::pair{header.originBytes, maxOriginBytes}})
+            if (bytes > maxBytes)
                 throw file_.bad(fmt::format("it is damaged: its settings would take {} bytes, and at most {} "
                                             "are allowed",
-                                            bytes, maxTextBytes));
+                                            bytes, maxBytes));
         const Crop crop{header.x0, header.x1, header.y0, header.y1};
         if (header.partIndex < 1 || header.partIndex > header.partCount ||
             header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers || header.zero != 0)
@@ -212,12 +214,14 @@ CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const Rend
                                    CheckpointSubject subject, bool isNewestWhole)
     : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
       partition_(subject_.crop, subject_.part.count), isNewestWhole_(isNewestWhole) {
-    if (identity_.size() > maxTextBytes || subject_.origin.size() > maxTextBytes)
-        throw Error(
-            ErrorKind::LimitExceeded,
-            fmt::format("cannot write '{}': what it says of the render takes {} bytes, and at most {} "
-                        "are allowed: the command line is too long",
-                        path_.string(), std::max(identity_.size(), subject_.origin.size()), maxTextBytes));
+    for (const auto &[bytes, maxBytes] :
+         {std::pair{identity_.size(), maxIdentityBytes}, std::pair{subject_.origin.size(), maxOriginBytes}})
+        if (bytes > maxBytes)
+            throw Error(
+                ErrorKind::LimitExceeded,
+                fmt::format("cannot write '{}': what it says of the render takes {} bytes, and at most {} "
+                            "are allowed: the command line is too long, or the scene has too many names",
+                            path_.string(), bytes, maxBytes));
     requireWritableCheckpoint(path_);
 }
 

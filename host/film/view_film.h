@@ -4,11 +4,15 @@
 #include "host/film/film.h"
 #include "host/scene/integrators.h"
 
+#include <string>
+#include <vector>
+
 namespace hyalite::core {
 
 struct ViewFilm {
     Integrator view;
     Film film;
+    std::vector<std::string> names{}; ///< of a view of numbers: that of number n is at n - 1
 };
 
 /// The samples of a view for each pixel: those of the image, or the pixel's centre.

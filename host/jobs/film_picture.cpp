@@ -20,6 +20,8 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     all.layers = filmLayers(picture.film);
     std::ranges::move(viewLayers(picture.views), std::back_inserter(all.layers));
     all.attributes = picture.attributes;
+    if (format == ImageFormat::Exr)
+        std::ranges::move(viewAttributes(picture.views), std::back_inserter(all.attributes));
     all.projection = picture.projection;
     return writeFilm(file, format, picture.film, all, picture.settings, picture.options);
 }

@@ -1,6 +1,7 @@
 #include "host/jobs/layers.h"
 
 #include "host/film/partition.h"
+#include "host/jobs/cryptomatte.h"
 #include "host/reference/closest_hit.h"
 #include "host/report/render_report.h"
 #include "host/scene/names.h"
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace hyalite::core {
 
@@ -84,6 +86,7 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
     const RenderSettings &ofImage = scene.loaded.settings;
     std::vector<ViewFilm> films;
     for (const Integrator view : views) {
+        std::vector<std::string> names = scene.packed.namesOf(view);
         RenderSettings settings = ofImage;
         settings.integrator = view;
         settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel);
@@ -105,7 +108,7 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
             if (view == Integrator::Depth)
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
         }
-        films.push_back({view, std::move(film)});
+        films.push_back({view, std::move(film), std::move(names)});
     }
     return films;
 }
@@ -120,12 +123,27 @@ std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views
     return alphas;
 }
 
+std::vector<Layer> layersOf(const ViewFilm &film) {
+    return rowOf(film.view).tallies() ? matteLayers(film) : std::vector<Layer>{layerOf(film)};
+}
+
 std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films) {
     std::vector<Layer> layers;
-    layers.reserve(films.size());
     for (const ViewFilm &film : films)
-        layers.push_back(layerOf(film));
+        std::ranges::move(layersOf(film), std::back_inserter(layers));
     return layers;
+}
+
+std::vector<Attribute> viewAttributes(const std::vector<ViewFilm> &films) {
+    std::vector<Attribute> attributes;
+    for (const ViewFilm &film : films) {
+        const IntegratorRow &view = rowOf(film.view);
+        if (view.tallies())
+            std::ranges::move(matteAttributes(film), std::back_inserter(attributes));
+        else if (view.isOfNumbers())
+            attributes.emplace_back(fmt::format("{}.names", view.name), namesToJson(film.names).dump());
+    }
+    return attributes;
 }
 
 } // namespace hyalite::core

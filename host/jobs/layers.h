@@ -22,9 +22,15 @@ namespace hyalite::core {
 /// `views`. A shadow is black: it adds no colour.
 [[nodiscard]] std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views);
 
-/// Layers by the names of the views, with the channels of their rows, except for depths: the channel Z, as compositors
-/// know it. Normals are of unit length; shadows are the share of a pixel that they hide. Where a ray leaves the scene, values are 0, except for depths and occlusion.
-/// `films` must outlive the layers.
+/// The layer by the name of the view, with the channels of its row, except for depths: the channel Z, as compositors
+/// know it; or those of a Cryptomatte. Normals are of unit length; shadows are the share of a pixel that
+/// they hide. Where a ray leaves the scene, values are 0, except for depths and occlusion. `film` must outlive the layers.
+[[nodiscard]] std::vector<Layer> layersOf(const ViewFilm &film);
+/// Those of all `films`.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);
+
+/// What a file says beside the layers: the attributes of Cryptomattes; of other views of numbers VIEW.names, a JSON
+/// object of names by numbers.
+[[nodiscard]] std::vector<Attribute> viewAttributes(const std::vector<ViewFilm> &films);
 
 } // namespace hyalite::core

@@ -74,7 +74,8 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     origin.wholeWidth = scene.loaded.scene.camera.width;
     origin.wholeHeight = scene.loaded.scene.camera.height;
     origin.projection = projectionOf(scene.loaded.scene);
-    origin.layers = scene.views;
+    for (const Integrator view : scene.views)
+        origin.layers.push_back({view, scene.packed.namesOf(view)});
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     return origin;
@@ -182,6 +183,9 @@ class PictureRender {
     }
 
     void take(BackendResult &result, FinishedPicture &finished) {
+        for (const ViewFilm &layer : layers_)
+            if (rowOf(layer.view).isOfNumbers() && !rowOf(layer.view).tallies())
+                report_.numbers.emplace_back(nameOf(layer.view), layer.names);
         const std::optional<Stop> stop = session_.observer().wantsStop();
         const int samplesPerPixel = session_.scene().loaded.settings.samplesPerPixel;
         report_.finished = finishedWork(result.film, squares_, samplesPerPixel);

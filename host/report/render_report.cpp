@@ -14,6 +14,15 @@ nlohmann::ordered_json raysToJson(const RayCounts &rays) {
     return json;
 }
 
+nlohmann::ordered_json namesToJson(const std::vector<std::string> &names) {
+    // As a list of its entries: the object would look each name up.
+    nlohmann::ordered_json::object_t json;
+    json.reserve(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        json.Container::emplace_back(std::to_string(i + 1), names[i]);
+    return json;
+}
+
 FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel) {
     FinishedWork finished;
     visitRowsIn(film, squares, [&](std::span<const layout::FilmPixel> row) {
@@ -54,6 +63,8 @@ std::string formatReport(const RenderReport &report) {
                  {"failure",
                   share.failure.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(share.failure)}});
     }
+    for (const auto &[layer, names] : report.numbers)
+        json["numbers"][layer] = namesToJson(names);
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["deviceBytes"] = nullptr;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hyalite::core {
@@ -44,8 +45,10 @@ struct RenderReport {
     std::string stoppedBy; ///< what ended the render early, or empty
     std::optional<ResumedWork> resumed;
     std::vector<RendererShare> shares; ///< of several renderers, if there are several
-    RayCounts rays;                    ///< traced for the image, before and now
-    std::uint64_t deviceBytes = 0;     ///< peak memory on a device; 0: on the CPU
+    /// Of layers of numbers: the layer's name, and the names of the numbers from 1 on.
+    std::vector<std::pair<std::string, std::vector<std::string>>> numbers;
+    RayCounts rays;                ///< traced for the image, before and now
+    std::uint64_t deviceBytes = 0; ///< peak memory on a device; 0: on the CPU
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;
@@ -55,6 +58,8 @@ struct RenderReport {
 
 /// JSON for reports.
 [[nodiscard]] nlohmann::ordered_json raysToJson(const RayCounts &rays);
+/// An object of names by their numbers, from 1 on.
+[[nodiscard]] nlohmann::ordered_json namesToJson(const std::vector<std::string> &names);
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 namespace hyalite::core {
@@ -36,6 +37,20 @@ TEST(HashBytes, IsXxh64) {
 }
 
 TEST(HashText, HasSixteenDigits) { EXPECT_EQ(hashText(0xabc), "0000000000000abc"); }
+
+// Vectors of the algorithm as others publish them, such as Wikipedia's article "MurmurHash".
+TEST(MurmurHash3, IsThatOfThePublishedVectors) {
+    EXPECT_EQ(murmurHash3(""), 0u);
+    EXPECT_EQ(murmurHash3("test"), 0xba6bd213u);
+    EXPECT_EQ(murmurHash3("Hello, world!"), 0xc0363e43u);
+    EXPECT_EQ(murmurHash3("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
+    EXPECT_EQ(murmurHash3(std::string_view("\xff\xff\xff\xff", 4)), 0x76293b50u);
+    EXPECT_EQ(murmurHash3(std::string_view("\x21\x43\x65\x87", 4)), 0xf55b516bu);
+    EXPECT_EQ(murmurHash3(std::string_view("\x21\x43\x65", 3)), 0x7e4a8634u);
+    EXPECT_EQ(murmurHash3(std::string_view("\x21\x43", 2)), 0xa0f7b07au);
+    EXPECT_EQ(murmurHash3(std::string_view("\x21", 1)), 0x72661cf4u);
+    EXPECT_EQ(murmurHash3(std::string_view("\0\0\0\0", 4)), 0x2362f9deu);
+}
 
 } // namespace
 } // namespace hyalite::core

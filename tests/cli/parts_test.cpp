@@ -2,16 +2,11 @@
 #include "host/base/hash.h"
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
-
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfInputFile.h>
+#include "tests/cli/exr_channels.h"
 
 #include <algorithm>
 #include <cstring>
 #include <functional>
-#include <map>
 #include <span>
 
 namespace hyalite::core::testing {
@@ -19,42 +14,12 @@ namespace {
 
 const std::string smallPicture = " --width 80 --height 56 --spp 3";
 
-/// All channels of an EXR, by name.
-std::map<std::string, std::vector<float>> channelsOf(const std::filesystem::path &path) {
-    Imf::InputFile file(path.c_str());
-    const Imath::Box2i window = file.header().dataWindow();
-    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-    const auto height = static_cast<std::size_t>(window.max.y - window.min.y + 1);
-    std::map<std::string, std::vector<float>> channels;
-    Imf::FrameBuffer buffer;
-    const Imf::ChannelList &list = file.header().channels();
-    for (auto channel = list.begin(); channel != list.end(); ++channel) {
-        std::vector<float> &values = channels[channel.name()];
-        values.resize(width * height);
-        char *const origin = reinterpret_cast<char *>(values.data()) -
-                             sizeof(float) * (static_cast<std::size_t>(window.min.x) +
-                                              static_cast<std::size_t>(window.min.y) * width);
-        buffer.insert(channel.name(), Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * width));
-    }
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-    return channels;
-}
-
 /// Of the texts of a PNG.
 std::vector<std::string> keywordsOf(const std::string &png) {
     std::vector<std::string> keywords;
     for (std::size_t at = png.find("iTXt"); at != std::string::npos; at = png.find("iTXt", at + 1))
         keywords.emplace_back(png.c_str() + at + 4);
     return keywords;
-}
-
-bool areSame(const std::map<std::string, std::vector<float>> &a,
-             const std::map<std::string, std::vector<float>> &b) {
-    return std::ranges::equal(a, b, [](const auto &one, const auto &other) {
-        return one.first == other.first && std::ranges::equal(std::as_bytes(std::span(one.second)),
-                                                              std::as_bytes(std::span(other.second)));
-    });
 }
 
 class Parts : public CommandLine {
@@ -108,7 +73,7 @@ class Parts : public CommandLine {
 };
 
 TEST_F(Parts, OfSeveralDevicesMakeEveryLayerOfOneRender) {
-    const std::string layers = " --layers albedo,normal,depth,id";
+    const std::string layers = " --layers albedo,normal,depth,id,crypto-object,crypto-material,instance-id";
     ASSERT_EQ(run("render sheet.json -o whole.exr --device cpu" + smallPicture + layers).exitCode, 0);
     for (int index = 1; index <= 5; ++index) {
         const std::string device = index % 2 == 0 ? "cpu" : softwareDevice();
@@ -121,6 +86,8 @@ TEST_F(Parts, OfSeveralDevicesMakeEveryLayerOfOneRender) {
     EXPECT_TRUE(contains(merged.output, "merged.exr: 80x56, 3 spp, 5 of 5 parts, made by 2 makers"))
         << merged;
     EXPECT_TRUE(areSame(channelsOf(folder / "whole.exr"), channelsOf(folder / "merged.exr")));
+    EXPECT_EQ(layerAttributesOf(folder / "whole.exr"), layerAttributesOf(folder / "merged.exr"));
+    EXPECT_EQ(layerAttributesOf(folder / "whole.exr").size(), 9u);
     ASSERT_EQ(run("render sheet.json -o whole.png --quiet --exposure 1 --device cpu" + smallPicture).exitCode,
               0);
 }
@@ -144,6 +111,28 @@ TEST_F(Parts, ThatAreFinishedSaySoAndThatAreStoppedGoOn) {
     EXPECT_EQ(load("a.pfm"), renderPfm("sheet.json --device cpu" + smallPicture));
     for (const std::string &name : entries())
         EXPECT_FALSE(name.ends_with(".1") || name.ends_with(".lock")) << name;
+}
+
+TEST_F(Parts, WithMattesGoOn) {
+    const std::string layers = " --layers crypto-object,crypto-asset,object-id";
+    ASSERT_EQ(run("render sheet.json -o whole.exr --device cpu" + smallPicture + layers).exitCode, 0);
+    ASSERT_EQ(renderPart(1, 2, layers + " --device cpu").exitCode, 0);
+    ASSERT_EQ(renderPart(2, 2, layers + atOnce + " --device " + softwareDevice()).exitCode, 0);
+    const Outcome rest = renderPart(2, 2, layers + " --device " + softwareDevice());
+    ASSERT_EQ(rest.exitCode, 0) << rest;
+    ASSERT_EQ(run("merge p1.part p2.part -o merged.exr").exitCode, 0);
+    EXPECT_TRUE(areSame(channelsOf(folder / "whole.exr"), channelsOf(folder / "merged.exr")));
+}
+
+// What a part says of its layers is as trustworthy as its maker.
+TEST_F(Parts, WithNumbersThatHaveNoNameAreRefused) {
+    ASSERT_EQ(renderPart(1, 1, " --device cpu --layers crypto-object").exitCode, 0);
+    change("p1.part", [](std::string &bytes, std::size_t, std::size_t pixelsBegin) {
+        const std::size_t layerBegin = pixelsBegin + (bytes.size() - 8 - pixelsBegin) / 2;
+        bytes[layerBegin] = 4; // of three things
+    });
+    expectFailure("merge p1.part -o a.exr", 3,
+                  {"p1.part", "layer crypto-object has a number without a name"});
 }
 
 TEST_F(Parts, ThatAreMissingDamagedOrForeignAreNamedWithTheirCommand) {
