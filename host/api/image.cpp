@@ -124,6 +124,7 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
     content->image = result.film.toImage();
     content->film = std::move(result.film);
     content->views = std::move(views);
+    content->alpha = core::alphasOf(content->film, content->views, content->settings);
     content->wholeWidth = scene.loaded.scene.camera.width;
     content->wholeHeight = scene.loaded.scene.camera.height;
     content->projection = core::projectionOf(scene.loaded.scene);

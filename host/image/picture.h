@@ -23,7 +23,7 @@ struct Layer {
     /// Fills row y of the crop: pixel by pixel, all values of each.
     std::function<void(int y, std::span<float> row)> fillRow;
     bool isLight = false; ///< colours, which 16-bit floats may hold
-    /// The same, for whole numbers: then there is no fillRow.
+    /// The same, for whole numbers, which a file then has; fillRow may be empty.
     std::function<void(int y, std::span<std::uint32_t> row)> fillWholeRow{};
 };
 

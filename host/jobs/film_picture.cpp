@@ -10,9 +10,7 @@ namespace hyalite::core {
 std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
     const Image image = picture.film.toImage();
     Picture all(image);
-    std::vector<float> alpha;
-    if (alphaKindOf(picture.settings) != layout::alphaOfNothing)
-        alpha = alphasOf(picture.film, picture.views);
+    const std::vector<float> alpha = alphasOf(picture.film, picture.views, picture.settings);
     all.alpha = alpha;
     all.wholeWidth = picture.wholeWidth;
     all.wholeHeight = picture.wholeHeight;

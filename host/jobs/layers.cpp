@@ -74,8 +74,16 @@ Layer layerOf(const ViewFilm &of) {
     };
     if (of.view == Integrator::Depth)
         return {std::string(row.layerChannels), "", fillRow};
-    const bool isLight = of.view == Integrator::Albedo || of.view == Integrator::AmbientOcclusion;
-    return {std::string(row.name), std::string(row.layerChannels), fillRow, isLight};
+    Layer layer{std::string(row.name), std::string(row.layerChannels), fillRow};
+    layer.isLight = of.view == Integrator::Albedo || of.view == Integrator::AmbientOcclusion ||
+                    of.view == Integrator::Shadow;
+    if (row.isOfNumbers())
+        layer.fillWholeRow = [&film](int y, std::span<std::uint32_t> values) {
+            std::ranges::transform(rowOf(film, y), values.begin(), [](const layout::FilmPixel &pixel) {
+                return static_cast<std::uint32_t>(meanOf(pixel).x);
+            });
+        };
+    return layer;
 }
 
 } // namespace
@@ -113,7 +121,10 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
     return films;
 }
 
-std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views) {
+std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views,
+                            const RenderSettings &settings) {
+    if (alphaKindOf(settings) == layout::alphaOfNothing)
+        return {};
     std::vector<float> alphas(film.pixels.size());
     std::ranges::transform(film.pixels, alphas.begin(), alphaOf);
     const auto shadows = std::ranges::find(views, Integrator::Shadow, &ViewFilm::view);

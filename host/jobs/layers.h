@@ -18,9 +18,10 @@ namespace hyalite::core {
                                                 std::span<const Crop> squares, std::span<const Film> begun,
                                                 Observer &observer, const TimeLimit &limit);
 
-/// The alpha of each pixel of the film, from 0 to 1: with the shadows on catchers, if the view of those is among the
-/// `views`. A shadow is black: it adds no colour.
-[[nodiscard]] std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views);
+/// The alpha of each pixel of a film that was rendered with these settings, from 0 to 1: with the shadows on catchers, if
+/// the view of those is among the `views`. A shadow is black: it adds no colour. Empty: all are opaque.
+[[nodiscard]] std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views,
+                                          const RenderSettings &settings);
 
 /// The layer by the name of the view, with the channels of its row, except for depths: the channel Z, as compositors
 /// know it; or those of a Cryptomatte. Normals are of unit length; shadows are the share of a pixel that
