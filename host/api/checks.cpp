@@ -120,7 +120,7 @@ Comparison compare(const Scene &scene, const Settings &settings, const std::stri
         nlohmann::ordered_json json = core::comparisonRunToJson(run, prepared, byProgram);
         json.update(core::comparisonToJson(renders.comparison, renders.imageB, renders.imageA));
         json["areRayCountsEqual"] = renders.a.rays == renders.b.rays;
-        const bool isEqual = renders.comparison.pixels.identical();
+        const bool isEqual = renders.comparison.identical();
         if (!isEqual)
             json["divergence"] = divergenceOf(run, prepared, renders);
         json["passed"] = isEqual;

@@ -51,6 +51,10 @@ void printMetrics(const ComparedRenders &renders) {
             pixels.maxUlpDistance, pixels.maxAbsoluteDifference, worst.x, worst.y, x.x, x.y, x.z, y.x, y.y,
             y.z);
     }
+    if (comparison.alpha)
+        printResult("alpha        {} of {} differ, by at most {:.6g}; colours are compared over black\n",
+                    comparison.alpha->differingPixelCount, pixels.pixelCount,
+                    comparison.alpha->maxAbsoluteDifference);
     printResult("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
     printResult("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
 }
@@ -124,7 +128,7 @@ Verdict judgeBits(const ComparisonRun &run, const PreparedScene &scene, const Co
                   bool isWithinShare) {
     Verdict verdict;
     verdict.isPassed = isWithinShare;
-    const bool areEqual = compared.comparison.pixels.identical();
+    const bool areEqual = compared.comparison.identical();
     if (!areEqual) {
         const glm::uvec2 pixel = imagePixel(scene.crop, worstPixel(compared));
         const std::optional<Divergence> divergence =

@@ -36,6 +36,9 @@ glm::ivec2 worstPixel(const ComparedRenders &renders) {
     const PixelMetrics &metrics = renders.comparison.pixels;
     if (metrics.maxAbsoluteDifference > 0.0)
         return {metrics.worstX, metrics.worstY};
+    const int width = renders.imageA.width();
+    if (const std::optional<AlphaMetrics> &alpha = renders.comparison.alpha; metrics.identical() && alpha)
+        return {static_cast<int>(alpha->worstIndex) % width, static_cast<int>(alpha->worstIndex) / width};
     const std::vector<glm::vec3> &a = renders.imageA.pixels();
     const std::vector<glm::vec3> &b = renders.imageB.pixels();
     const auto hasEqualBits = [](const glm::vec3 &x, const glm::vec3 &y) {
@@ -43,7 +46,6 @@ glm::ivec2 worstPixel(const ComparedRenders &renders) {
         return std::bit_cast<Bits>(x) == std::bit_cast<Bits>(y);
     };
     const auto index = static_cast<int>(std::ranges::mismatch(a, b, hasEqualBits).in1 - a.begin());
-    const int width = renders.imageA.width();
     return metrics.identical() ? glm::ivec2(0) : glm::ivec2(index % width, index / width);
 }
 

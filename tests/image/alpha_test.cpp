@@ -196,6 +196,7 @@ TEST(Alpha, OfAnImageWithoutItIsOne) {
     EXPECT_FALSE(comparison.alpha->hasReference);
     EXPECT_TRUE(comparison.alpha->hasTest);
     EXPECT_EQ(comparison.alpha->maxAbsoluteDifference, 0.5);
+    EXPECT_EQ(compareImages(a, opaque).alpha->maxAbsoluteDifference, 0.5);
     EXPECT_FALSE(compareImages(opaque, opaque).alpha);
     EXPECT_TRUE(compareImages(opaque, {image, Encoding::Linear, {1.0f, 1.0f}}).identical());
 }
