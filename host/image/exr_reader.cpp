@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -232,7 +231,7 @@ std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &c
 }
 
 /// Checks before memory is allocated. Throws if the file cannot be read.
-void requireReadable(const InputFile &file, const Imf::Header &header) {
+void requireReadable(const InputFile &file, const Imf::Header &header, bool wantsAlpha) {
     const Imath::Box2i &window = header.dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
@@ -269,14 +268,16 @@ void requireReadable(const InputFile &file, const Imf::Header &header) {
     constexpr std::uint64_t farTooMuch = std::uint64_t{1} << 40; // so that products fit
     if (linesTogether * widthTogether > farTooMuch)
         throw file.bad("its tiles are larger than any image");
+    const std::uint64_t pixelBytes = sizeof(glm::vec3) + (wantsAlpha ? sizeof(float) : 0);
     const std::uint64_t packedBytes = widthTogether * bytesPerPixel * linesTogether;
-    const std::uint64_t neededBytes = pixelCount * sizeof(glm::vec4) + copyCount * packedBytes;
+    const std::uint64_t neededBytes = pixelCount * pixelBytes + copyCount * packedBytes;
     requireReadingMemory(file, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
                          neededBytes);
 }
 
 /// The header of each part, checked.
-std::vector<Imf::Header> readHeaders(const InputFile &file, const SafeHeader &safeHeader, ExrInput &input) {
+std::vector<Imf::Header> readHeaders(const InputFile &file, const SafeHeader &safeHeader, ExrInput &input,
+                                     bool wantsAlpha = false) {
     std::vector<Imf::Header> headers;
     for (const std::size_t begin : safeHeader.parts()) {
         int version = 2;
@@ -284,7 +285,8 @@ std::vector<Imf::Header> readHeaders(const InputFile &file, const SafeHeader &sa
         headers.emplace_back().readFrom(input, version);
         if (headers.back().hasType() && !Imf::isImage(headers.back().type()))
             throw file.bad("it is OpenEXR with deep pixels; store flat ones");
-        requireReadable(file, headers.back());
+        requireReadable(file, headers.back(),
+                        wantsAlpha && headers.back().channels().findChannel("A") != nullptr);
     }
     return headers;
 }
@@ -364,10 +366,11 @@ Image displayed(const InputFile &file, const Imf::Header &header, Image &&stored
 }
 
 /// The result of read(input, its safe header, the checked headers of its parts, the layer).
-template <class Read> auto withLayer(const InputFile &file, const std::string &layer, const Read &read) {
+template <class Read>
+auto withLayer(const InputFile &file, const std::string &layer, bool wantsAlpha, const Read &read) {
     const SafeHeader safeHeader(file);
     ExrInput input(file, safeHeader);
-    const std::vector<Imf::Header> headers = readHeaders(file, safeHeader, input);
+    const std::vector<Imf::Header> headers = readHeaders(file, safeHeader, input, wantsAlpha);
     const std::optional<FoundLayer> found = findLayer(headers, layer);
     if (!found)
         refuseChannels(file, headers.front().channels(), layer);
@@ -382,29 +385,32 @@ template <class Read> auto withLayer(const InputFile &file, const std::string &l
 }
 
 Image readLayer(const InputFile &file, const std::string &layer, ExrWindow window) {
-    return withLayer(file, layer, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
-        Image stored = readPixels(file, reader, header, found, false).image;
-        return window == ExrWindow::Data ? stored : displayed(file, header, std::move(stored));
-    });
+    return withLayer(
+        file, layer, false, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+            Image stored = readPixels(file, reader, header, found, false).image;
+            return window == ExrWindow::Data ? stored : displayed(file, header, std::move(stored));
+        });
 }
 
 std::vector<std::uint32_t> readWhole(const InputFile &file, const std::string &layer) {
-    return withLayer(file, layer, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
-        const std::string &channel = found.channels[0];
-        if (channel != found.channels[1] || header.channels()[channel].type != Imf::UINT)
-            throw file.bad(fmt::format("its layer {} is not one whole number (UINT) a pixel", layer));
-        if (!reader.isComplete())
-            throw file.bad("some of its rows are missing");
-        const Imath::Box2i &window = header.dataWindow();
-        const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-        std::vector<std::uint32_t> values(width * static_cast<std::size_t>(window.max.y - window.min.y + 1));
-        Imf::FrameBuffer frameBuffer;
-        frameBuffer.insert(channel, Imf::Slice::Make(Imf::UINT, values.data(), window, sizeof(values[0]),
-                                                     sizeof(values[0]) * width));
-        reader.setFrameBuffer(frameBuffer);
-        reader.readPixels(window.min.y, window.max.y);
-        return values;
-    });
+    return withLayer(
+        file, layer, false, [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+            const std::string &channel = found.channels[0];
+            if (channel != found.channels[1] || header.channels()[channel].type != Imf::UINT)
+                throw file.bad(fmt::format("its layer {} is not one whole number (UINT) a pixel", layer));
+            if (!reader.isComplete())
+                throw file.bad("some of its rows are missing");
+            const Imath::Box2i &window = header.dataWindow();
+            const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+            std::vector<std::uint32_t> values(width *
+                                              static_cast<std::size_t>(window.max.y - window.min.y + 1));
+            Imf::FrameBuffer frameBuffer;
+            frameBuffer.insert(channel, Imf::Slice::Make(Imf::UINT, values.data(), window, sizeof(values[0]),
+                                                         sizeof(values[0]) * width));
+            reader.setFrameBuffer(frameBuffer);
+            reader.readPixels(window.min.y, window.max.y);
+            return values;
+        });
 }
 
 } // namespace
@@ -438,9 +444,10 @@ Image readExr(const InputFile &file, const std::string &layer, ExrWindow window)
 
 AlphaImage readExrWithAlpha(const InputFile &file) {
     return asked(file, [&] {
-        return withLayer(file, "", [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
-            return readPixels(file, reader, header, found, true);
-        });
+        return withLayer(file, "", true,
+                         [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
+                             return readPixels(file, reader, header, found, true);
+                         });
     });
 }
 

@@ -11,8 +11,8 @@ namespace hyalite::core {
 inline constexpr int imageSideMax = 32768;
 inline constexpr std::uint64_t imagePixelCountMax = std::uint64_t{1} << 28;
 
-/// Maximum memory for reading a file of `fileBytes`: enough for 8192 x 4096 pixels of any content, because flat images
-/// compress a thousandfold; beyond that in proportion to the file, so that no small file allocates gigabytes.
+/// Maximum memory for reading a file of `fileBytes`: enough for 8192 x 4096 pixels of any content without alpha, because
+/// flat images compress a thousandfold; beyond that in proportion to the file, so that no small file allocates gigabytes.
 [[nodiscard]] constexpr std::uint64_t readingBytesMax(std::uint64_t fileBytes) {
     return (std::uint64_t{512} << 20) + 64 * fileBytes;
 }

@@ -5,7 +5,6 @@
 #include "host/image/png_text.h"
 
 #include <fmt/format.h>
-#include <glm/vec4.hpp>
 #include <png.h>
 
 #include <algorithm>
@@ -185,9 +184,10 @@ bool readPngLevels(PngDecoder &decoder, std::span<std::byte> levels, int channel
 
 /// Bounds the memory. Pixels may be compressed a thousandfold, so that a small file could allocate gigabytes. The peak
 /// holds the levels and the floats of an Image.
-void requirePngMemory(const PngDecoder &decoder) {
+void requirePngMemory(const PngDecoder &decoder, bool wantsAlpha) {
     constexpr std::uint64_t besideBytes = std::uint64_t{2} << 20; // rows and tables
-    constexpr std::uint64_t deflateRatioMax = 1032;               // 258 bytes in 2 bits
+    const std::uint64_t channelCount = wantsAlpha && decoder.hasAlpha() ? 4 : 3;
+    constexpr std::uint64_t deflateRatioMax = 1032; // 258 bytes in 2 bits
     const std::uint64_t width = png_get_image_width(decoder.png, decoder.info);
     const std::uint64_t height = png_get_image_height(decoder.png, decoder.info);
     requireImageSize(decoder.file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height));
@@ -195,13 +195,14 @@ void requirePngMemory(const PngDecoder &decoder) {
         throw decoder.file.bad(fmt::format("{} x {} pixels cannot be packed in {} bytes", width, height,
                                            decoder.file.sizeBytes()));
     requireReadingMemory(decoder.file, width, height,
-                         width * height * (sizeof(glm::vec4) + (decoder.has16Bits() ? 8 : 4)) + besideBytes);
+                         width * height * channelCount * (sizeof(float) + (decoder.has16Bits() ? 2 : 1)) +
+                             besideBytes);
 }
 
-void beginPng(PngDecoder &decoder) {
+void beginPng(PngDecoder &decoder, bool wantsAlpha) {
     if (!readPngInfo(decoder))
         decoder.refuse();
-    requirePngMemory(decoder);
+    requirePngMemory(decoder, wantsAlpha);
 }
 
 template <typename Level> AlphaImage decodePng(PngDecoder &decoder, float levelMax) {
@@ -253,7 +254,7 @@ std::vector<std::byte> encodePng(int width, int height, std::span<const std::uin
 
 Texture readPngTexture(const InputFile &file) {
     PngDecoder decoder(file);
-    beginPng(decoder);
+    beginPng(decoder, false); // four bytes a pixel: less than floats
     Texture texture;
     texture.name = file.path().string();
     texture.width = decoder.width();
@@ -267,7 +268,7 @@ Texture readPngTexture(const InputFile &file) {
 
 AlphaImage readPng(const InputFile &file) {
     PngDecoder decoder(file);
-    beginPng(decoder);
+    beginPng(decoder, true);
     return decoder.has16Bits() ? decodePng<std::uint16_t>(decoder, 65535.0f)
                                : decodePng<std::uint8_t>(decoder, 255.0f);
 }
