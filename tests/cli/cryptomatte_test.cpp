@@ -24,7 +24,8 @@ struct Cryptomatte {
             const std::string prefix = key.substr(0, key.size() - 4);
             EXPECT_EQ(attributes.at(prefix + "hash"), "MurmurHash3_32");
             EXPECT_EQ(attributes.at(prefix + "conversion"), "uint32_to_float32");
-            for (const auto &[thing, id] : nlohmann::json::parse(attributes.at(prefix + "manifest")).items())
+            const nlohmann::json manifest = nlohmann::json::parse(attributes.at(prefix + "manifest"));
+            for (const auto &[thing, id] : manifest.items())
                 ids[thing] = std::bit_cast<float>(
                     static_cast<std::uint32_t>(std::stoul(id.get<std::string>(), nullptr, 16)));
         }
@@ -87,11 +88,11 @@ TEST_F(Cryptomattes, AgreeWithLayersOfNumbers) {
               0);
     const Channels channels = channelsOf(folder / "a.exr");
     const auto attributes = layerAttributesOf(folder / "a.exr");
-    const auto report = nlohmann::json::parse(load("a.json"))["numbers"];
-    const auto names = nlohmann::json::parse(attributes.at("object-id.names"));
-    EXPECT_EQ(report["object-id"], names);
-    EXPECT_EQ(report["material-id"].size(), 3u);
-    EXPECT_EQ(report["instance-id"]["3"], "sheet.obj");
+    const nlohmann::json report = nlohmann::json::parse(load("a.json")).at("numbers");
+    const nlohmann::json names = nlohmann::json::parse(attributes.at("object-id.names"));
+    EXPECT_EQ(report.at("object-id"), names);
+    EXPECT_EQ(report.at("material-id").size(), 3u);
+    EXPECT_EQ(report.at("instance-id").at("3"), "sheet.obj");
     EXPECT_FALSE(report.contains("crypto-object")) << "its numbers are not in the file";
     const Cryptomatte crypto(attributes, "CryptoObject");
     std::size_t thingCount = 0;

@@ -43,9 +43,11 @@ class Parts : public CommandLine {
             ASSERT_EQ(renderPart(index, count).exitCode, 0);
     }
 
-    /// Changes a file, and makes its hash fit. `change` gets its bytes, and where its origin and its pixels begin.
+    /// Changes a file of so many layers, and makes its hash fit. `change` gets its bytes, and where its origin and its
+    /// pixels begin.
     void change(const std::string &name,
-                const std::function<void(std::string &, std::size_t, std::size_t)> &change) const {
+                const std::function<void(std::string &, std::size_t, std::size_t)> &change,
+                std::size_t layerCount = 0) const {
         std::string bytes = load(name);
         constexpr std::size_t headBytes = 19 + 88;
         std::uint32_t identityBytes = 0;
@@ -58,7 +60,9 @@ class Parts : public CommandLine {
         std::uint64_t hash = hashBytes(all.first(headBytes));
         hash = hashBytes(all.subspan(headBytes, identityBytes), hash);
         hash = hashBytes(all.subspan(headBytes + identityBytes, originBytes), hash);
-        hash = hashBytes(all.subspan(pixelsBegin, all.size() - pixelsBegin - sizeof hash), hash);
+        const std::size_t filmBytes = (all.size() - pixelsBegin - sizeof hash) / (1 + layerCount);
+        for (std::size_t film = 0; film <= layerCount; ++film)
+            hash = hashBytes(all.subspan(pixelsBegin + film * filmBytes, filmBytes), hash);
         std::memcpy(bytes.data() + bytes.size() - sizeof hash, &hash, sizeof hash);
         store(name, bytes);
     }
@@ -127,10 +131,10 @@ TEST_F(Parts, WithMattesGoOn) {
 // What a part says of its layers is as trustworthy as its maker.
 TEST_F(Parts, WithNumbersThatHaveNoNameAreRefused) {
     ASSERT_EQ(renderPart(1, 1, " --device cpu --layers crypto-object").exitCode, 0);
-    change("p1.part", [](std::string &bytes, std::size_t, std::size_t pixelsBegin) {
-        const std::size_t layerBegin = pixelsBegin + (bytes.size() - 8 - pixelsBegin) / 2;
-        bytes[layerBegin] = 4; // of three things
-    });
+    const auto rename = [](std::string &bytes, std::size_t, std::size_t pixelsBegin) {
+        bytes[pixelsBegin + (bytes.size() - 8 - pixelsBegin) / 2] = 4; // of three things
+    };
+    change("p1.part", rename, 1);
     expectFailure("merge p1.part -o a.exr", 3,
                   {"p1.part", "layer crypto-object has a number without a name"});
 }

@@ -54,11 +54,11 @@ TestScene things() {
     cloth.colours.corners = {{0, 1, 1}, {0, 1, 0}};
     addNamed(scene, "lace", cloth);
     testing::Random random(3);
-    for (int i = 0; i < 12; ++i) { // several in each of a few pixels
-        const glm::vec3 corner(-0.1f + 0.02f * static_cast<float>(i % 4),
-                               -0.7f + 0.02f * static_cast<float>(i / 4), 1.5f);
+    for (int i = 0; i < 24; ++i) { // many in each of a few pixels
+        const glm::vec3 corner(-0.1f + 0.011f * static_cast<float>(i % 4),
+                               -0.7f + 0.011f * static_cast<float>(i / 4), 1.0f);
         addNamed(scene, "crumb " + std::to_string(i),
-                 texturedQuad(corner, {0.018f, 0, 0}, {0, 0.018f, 0}, grey));
+                 texturedQuad(corner, {0.01f, 0, 0}, {0, 0.01f, 0}, grey));
     }
     std::vector<Placement> placements(30);
     std::vector<std::uint32_t> nodes(30, static_cast<std::uint32_t>(scene.nodes.size()));
@@ -177,13 +177,15 @@ TEST(Mattes, ArePicturesOfTheirObjectsAlone) {
             std::uint32_t count = 0;
             for (const NumberCount &entry : tally.numbers)
                 count = entry.number == number ? entry.count : count;
-            const float wanted = alone.pixels[i].sum.x;
+            const auto wanted = static_cast<double>(alone.pixels[i].sum.x);
             if (count > 0 || tally.othersCount == 0) {
-                ASSERT_EQ(static_cast<float>(count), wanted) << name << ", pixel " << i;
+                ASSERT_NEAR(count, wanted, 1e-4) << name << ", pixel " << i; // interpolated colours round
             }
             seen += count;
         }
-        EXPECT_GT(seen, 0u) << name << " is not in the picture";
+        if (!name.starts_with("crumb")) { // some of these find no sample, or no room
+            EXPECT_GT(seen, 0u) << name << " is not in the picture";
+        }
     }
     const Film all = aloneInWhite(scene, [](const std::string &) { return true; });
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
@@ -191,7 +193,7 @@ TEST(Mattes, ArePicturesOfTheirObjectsAlone) {
         std::uint32_t count = tally.othersCount;
         for (const NumberCount &entry : tally.numbers)
             count += entry.count;
-        ASSERT_EQ(static_cast<float>(count), all.pixels[i].sum.x) << i;
+        ASSERT_NEAR(count, static_cast<double>(all.pixels[i].sum.x), 1e-4) << i;
     }
 }
 
