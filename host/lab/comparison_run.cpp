@@ -1,5 +1,7 @@
 #include "host/lab/comparison_run.h"
 
+#include "host/jobs/layers.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,12 +25,20 @@ ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,
         return unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop, observer,
                                    {.name = backend.name()}));
     };
+    const auto alphas = [&](Backend &backend, const Film &film) {
+        const std::vector<ViewFilm> views =
+            renderViews(backend, scene, scene.views, {}, {}, observer, TimeLimit());
+        return alphasOf(film, views, scene.loaded.settings);
+    };
     BackendResult a = renderAll(*run.first);
+    std::vector<float> alphaA = alphas(*run.first, a.film);
     BackendResult b = renderAll(*run.second);
+    std::vector<float> alphaB = alphas(*run.second, b.film);
     ComparedRenders renders{std::move(a), std::move(b), {}, {}, {}};
     renders.imageA = renders.a.film.toImage();
     renders.imageB = renders.b.film.toImage();
-    renders.comparison = compareImages(renders.imageB, renders.imageA, Encoding::Linear);
+    renders.comparison = compareImages(LoadedImage{renders.imageB, Encoding::Linear, std::move(alphaB)},
+                                       LoadedImage{renders.imageA, Encoding::Linear, std::move(alphaA)});
     return renders;
 }
 
