@@ -35,9 +35,21 @@ std::string paragraph(const std::string &text) {
     return page;
 }
 
+/// The text, on several lines where it is too long, each but the last with a bar at its end.
+std::string brokenAtBars(std::string text) {
+    for (std::size_t lineStart = 0; text.size() - lineStart > pageWidth;) {
+        const std::size_t bar = text.rfind('|', lineStart + pageWidth - 1);
+        if (bar == std::string::npos || bar <= lineStart)
+            break;
+        text.insert(bar + 1, "\n    ");
+        lineStart = bar + 2;
+    }
+    return text;
+}
+
 /// A name and its explanation beside it, or below it where the name is long.
 std::string row(const std::string &name, const std::string &explanation) {
-    std::string page = "  " + name;
+    std::string page = brokenAtBars("  " + name);
     if (page.size() + 2 > textColumn)
         page += '\n';
     page.resize(page.rfind('\n') == std::string::npos ? textColumn : page.size() + textColumn, ' ');
