@@ -12,8 +12,8 @@
 //     u32 bytes of the origin     u32 0
 //     the identity, a line "name: value" for each of its parts
 //     the origin: what the writer says of itself
-//     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row. Three words of a
-//     pixel are 0: they are kept for what later samples or filters want to know of a pixel, and more than that is a layer
+//     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row. One word of a
+//     pixel is 0, and is kept for what later samples or filters want to know of it; more than that is a layer
 //     those of each layer
 //     u64 hash of all that
 #pragma once

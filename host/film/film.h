@@ -28,8 +28,8 @@ namespace hyalite::core {
                                  : glm::vec3(0.0f);
 }
 
-/// The share of the pixel that is not transparent, from 0 to 1; 0 without samples. Coverage of glass that is seen through may be
-/// out of that range in a few samples: its mean is not.
+/// The share of the pixel that is not transparent, from 0 to 1; 0 without samples. Through glass, a few samples may be
+/// out of that range: their mean is not.
 [[nodiscard]] inline float alphaOf(const layout::FilmPixel &pixel) {
     if (pixel.sampleCount == 0)
         return 0.0f;

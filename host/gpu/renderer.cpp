@@ -206,7 +206,8 @@ class Renderer::Attempt {
         const JobPlan firstPlan = planJob(firstJob, config_, state_.info);
         state_.keepOnly(scene_, isSkipList());
         result_.memory = state_.requireMemory(scenePlan_, firstPlan);
-        // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers, unless they are there.
+        // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers, if they are not
+        // there.
         const std::launch when = state_.resident ? std::launch::deferred : std::launch::async;
         std::future<void> firstPipeline = std::async(when, [&] {
             TileRenderer::makePipeline(*state_.device, state_.pipelines, config_, firstJob, scenePlan_,

@@ -18,14 +18,14 @@ namespace hyalite::core {
                                                 std::span<const Crop> squares, std::span<const Film> begun,
                                                 Observer &observer, const TimeLimit &limit);
 
-/// The alpha of each pixel of a film that was rendered with these settings, from 0 to 1: with the shadows on catchers, if
-/// the view of those is among the `views`. A shadow is black: it adds no colour. Empty: all are opaque.
+/// The alpha of each pixel of a film that was rendered with these settings, from 0 to 1: with the shadows on catchers,
+/// if the view of those is among the `views`. A shadow is black: it adds no colour. Empty: all are opaque.
 [[nodiscard]] std::vector<float> alphasOf(const Film &film, const std::vector<ViewFilm> &views,
                                           const RenderSettings &settings);
 
 /// The layer by the name of the view, with the channels of its row, except for depths: the channel Z, as compositors
-/// know it; or those of a Cryptomatte. Normals are of unit length; shadows are the share of a pixel that
-/// they hide. Where a ray leaves the scene, values are 0, except for depths and occlusion. `film` must outlive the layers.
+/// know it; or those of a Cryptomatte. Normals are of unit length; shadows are the share of a pixel that they hide.
+/// Where a ray leaves the scene, values are 0, except for depths and occlusion. `film` must outlive the layers.
 [[nodiscard]] std::vector<Layer> layersOf(const ViewFilm &film);
 /// Those of all `films`.
 [[nodiscard]] std::vector<Layer> viewLayers(const std::vector<ViewFilm> &films);

@@ -8,11 +8,11 @@
 
 namespace hyalite::core {
 
-/// The projection of the scene's camera, in the coordinates of the scene's file; of a lens that of its centre. None of a
-/// panorama, which no matrix describes.
+/// The projection of the scene's camera, in the coordinates of the scene's file; of a lens that of its centre. None of
+/// a panorama, which no matrix describes.
 ///
-/// The z of NDC, which has no meaning there, makes the matrix invertible: 1 - 1/z of a perspective camera, whose depth is
-/// z, and z of an orthographic one.
+/// The z of NDC, which has no meaning there, makes the matrix invertible: 1 - 1/z of a perspective camera, whose depth
+/// is z, and z of an orthographic one.
 [[nodiscard]] std::optional<Projection> projectionOf(const Scene &scene);
 
 } // namespace hyalite::core

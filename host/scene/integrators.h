@@ -40,7 +40,7 @@ struct IntegratorRow {
     std::string_view layerChannels{};        ///< of a view: those of its layer in an EXR
     /// As a layer it has one sample, at the pixel's centre: a mean of depths or normals belongs to no surface.
     bool isOfCentres = false;
-    bool showsLight = false;     ///< a sample is radiance, and the background may be transparent
+    bool showsLight = false; ///< a sample is radiance, and the background may be transparent
     /// Of a view of numbers whose samples are counted, as a tally (host/film/tally.h): the name of the Cryptomatte.
     std::string_view cryptomatte{};
     bool followsPaths = false;   ///< over several segments: maxDepth bounds them

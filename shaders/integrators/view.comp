@@ -67,8 +67,9 @@ void passToLight(uint slot) {
                    path[slot].hitPrimitive == path[slot].rayTarget;
     float unblocked = path[slot].sampleRadiance.y;
     if (isThere) {
-        float blocked = path[slot].isLightDimmed != 0u ? unblocked * (1.0 - frame.shadowThroughGlass) : 0.0;
-        traceEvent(slot, traceVisibility, path[slot].isLightDimmed != 0u ? visibilityDimmed : visibilityClear, vec3(0.0));
+        bool isDimmed = path[slot].isLightDimmed != 0u;
+        float blocked = isDimmed ? unblocked * (1.0 - frame.shadowThroughGlass) : 0.0;
+        traceEvent(slot, traceVisibility, isDimmed ? visibilityDimmed : visibilityClear, vec3(0.0));
         show(slot, vec3(1.0, unblocked, blocked));
         return;
     }

@@ -133,8 +133,8 @@ struct InstanceRecord {
 // ---- Places
 //
 // A place is a sphere, a mesh or an instance: primitives whose ids follow each other. Records are in the order of their
-// first ids; the number of a place is its index + 1. Objects, assets and materials are numbered by their names from 1 on
-// (host/scene/scene_names.h), so that things of one name have one number.
+// first ids; the number of a place is its index + 1. Objects, assets and materials are numbered by their names from 1
+// on (host/scene/scene_names.h), so that things of one name have one number.
 
 struct PlaceRecord {
     uint firstPrimitive; // id
@@ -598,8 +598,8 @@ struct DispatchConstants {
 
 // ---- Results
 
-// Of the samples' radiance and transparency. Sums are compensated (shaders/math/sums.glsl): what is summed is a sum with
-// its rest.
+// Of the samples' radiance and transparency. Sums are compensated (shaders/math/sums.glsl): what is summed is a sum
+// with its rest.
 struct FilmPixel {
     vec3 sum;
     uint sampleCount;
@@ -613,14 +613,14 @@ struct FilmPixel {
 
 // Where constantTallies is set, the words of a FilmPixel count samples by their numbers instead: they are pairs of a
 // number and its count, in the order in which the numbers come first, with zeros for those that are free. The pair
-// tallyOthers has the count of samples whose numbers found no pair, then the count of all samples. Samples of number 0 are
-// in no other count.
+// tallyOthers has the count of samples whose numbers found no pair, then the count of all samples. Samples of number 0
+// are in no other count.
 const uint tallyPairs = 8u;
 const uint tallyOthers = 1u;
 const uint tallyNumbers = tallyPairs - 1u; // that a pixel keeps apart
 
-// A sample that waits to be added to the film: two records where its transparency is wanted, the second one with that as
-// `radiance.x`.
+// A sample that waits to be added to the film: two records where its transparency is wanted, the second one with that
+// as `radiance.x`.
 struct SampleRecord {
     vec3 radiance;
     uint finished; // 0: it is not; else the counts of its rays (path_slots.glsl)

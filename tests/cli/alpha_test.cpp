@@ -81,7 +81,8 @@ TEST_F(AlphaFiles, AreNotThereWithout) {
 TEST_F(AlphaFiles, ThatMeanNothingAreRefused) {
     const Outcome view = run("render catcher.json -o a.exr --alpha --integrator normal");
     EXPECT_EQ(view.exitCode, 2) << view;
-    EXPECT_NE(view.errors.find("--alpha: has no effect with the integrator normal"), std::string::npos) << view;
+    EXPECT_NE(view.errors.find("--alpha: has no effect with the integrator normal"), std::string::npos)
+        << view;
     const Outcome glass = run("render spheres -o a.exr --alpha-through-glass");
     EXPECT_EQ(glass.exitCode, 2) << glass;
     EXPECT_NE(glass.errors.find("alphaThroughGlass: found true without alpha; allowed: with alpha"),

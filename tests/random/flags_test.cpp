@@ -87,10 +87,10 @@ const std::set<std::string> ofDispatches = {"constantWorkgroupSize",
 
 /// Words whose values or bits have rows of their own.
 const std::set<std::string> ofSeveralFlags = {
-    "constantSampler", "constantView",      "constantShowsCost",   "constantScattering", "constantLighting",
-    "constantCamera",  "constantTexturing", "constantTreeSpheres", "constantAnyHit",     "constantAlpha",
-    "scattersAtRough", "anyHitAlpha",       "texturesMaterials",   "texturesOfLobes",    "texturesSrgb",
-    "constantTallies"};
+    "constantSampler",   "constantView",    "constantShowsCost", "constantScattering",
+    "constantLighting",  "constantCamera",  "constantTexturing", "constantTreeSpheres",
+    "constantAnyHit",    "constantAlpha",   "scattersAtRough",   "anyHitAlpha",
+    "texturesMaterials", "texturesOfLobes", "texturesSrgb",      "constantTallies"};
 
 TEST(Flags, HaveAScene) {
     std::set<std::string> tested;
