@@ -204,8 +204,11 @@ INSTANTIATE_TEST_SUITE_P(Table, MaterialTableCopy,
                                                              "<!-- materials: end", markdownText}));
 
 TEST(MaterialTable, HasARowForEachConstantOfTheLayout) {
-    for (std::uint32_t kind = 0; kind < materialTable.size(); ++kind)
-        EXPECT_EQ(static_cast<std::uint32_t>(materialTable[kind].kind), kind);
+    for (std::uint32_t kind = 0; kind <= layout::materialGltf; ++kind)
+        EXPECT_EQ(static_cast<std::uint32_t>(materialTable.at(kind).kind), kind);
+    ASSERT_EQ(materialTable.size(), layout::materialGltf + 2u);
+    EXPECT_EQ(static_cast<std::uint32_t>(materialTable.back().kind) & layout::materialKindMask,
+              layout::materialDiffuse); // a shadow catcher, to kernels
 }
 
 TEST(MaterialTable, KeysOfAKindAreUnique) {
