@@ -118,9 +118,10 @@ PartOrigin readPartOrigin(std::string_view text) {
             return row->integrator;
         };
         for (const nlohmann::ordered_json &word : json.at("layers")) {
-            PartLayer &layer = origin.layers.emplace_back(integratorOf(word));
+            PartLayer layer{integratorOf(word), {}};
             if (rowOf(layer.view).isOfNumbers() && json.contains("names"))
                 layer.names = json.at("names").value(word.get<std::string>(), layer.names);
+            origin.layers.push_back(std::move(layer));
         }
         if (json.contains("projection"))
             origin.projection = projectionOf(json.at("projection"));
