@@ -443,7 +443,7 @@ TEST(Film, SumsTheSamplesInTheirOrder) {
     for (const glm::uvec2 pixel : {glm::uvec2(18, 11), {3, 4}, {36, 22}, {20, 15}}) {
         FilmPixel<float> sums(layout::FilmPixel{});
         for (std::uint32_t sample = 0; sample < 5; ++sample)
-            sums = withSample<float>(sums, integrator.sampleRadiance(pixel, sample));
+            sums = withSample<float>(sums, integrator.sampleRadiance(pixel, sample), 0.0f);
         const layout::FilmPixel &stored = film.pixels[pixel.y * 37u + pixel.x];
         EXPECT_EQ(stored.sum, sums.sum);
         EXPECT_EQ(stored.sumRest, sums.sumRest);
