@@ -128,7 +128,7 @@ PartOrigin readPartOrigin(std::string_view text) {
         const nlohmann::ordered_json &settings = provenance.at("settings");
         origin.integrator = integratorOf(settings.at("integrator"));
         origin.exposureStops = settings.at("exposure").get<double>();
-        origin.hasAlpha = settings.at("alpha").get<bool>();
+        origin.hasAlpha = settings.value("alpha", false); // older parts have none
         const nlohmann::ordered_json &device = provenance.at("device");
         origin.device = fmt::format("{}, {}", device.at("name").get<std::string>(),
                                     device.at("driver").get<std::string>());

@@ -371,8 +371,8 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
      .scattering = scatteringOfGltf},
     {.kind = MaterialKind::ShadowCatcher,
      .name = "shadowCatcher",
-     .help = "with `alpha`: transparent but for the light that it lacks, a matt surface to all but the eye; "
-             "without: matt",
+     .help = "with `alpha` transparent but for the light that it lacks, and matt to other surfaces; "
+             "otherwise matt",
      .keys = material_keys::shadowCatcher,
      .textures = layout::texturesBaseColour | layout::texturesNormal | layout::texturesOpacity,
      .scattersDiffusely = true},

@@ -197,7 +197,7 @@ TEST_F(DeviceFaults, EveryCommandTellsThem) {
 TEST_F(DeviceFaults, AFailingDispatchIsNamed) {
     const Outcome outcome =
         runFaulty("render spheres -o a.png --crop 16,24,8,16 --width 32 --height 32 --spp 3",
-                  "vkWaitForFences:4:VK_ERROR_DEVICE_LOST");
+                  "vkWaitForFences:3:VK_ERROR_DEVICE_LOST");
     EXPECT_EQ(outcome.exitCode, 0) << "it is done again: " << outcome;
     EXPECT_TRUE(contains(outcome.errors, "kernel whitted skip-list, tile (16, 8), samples 0 to 3"))
         << outcome;

@@ -149,7 +149,8 @@ worldToNDC (type m44f):
         names,
         "commandLine device.arithmetic device.driver device.equalBits device.name image.height image.width "
         "pixels "
-        "scene sceneHash settings.bvh settings.clamp settings.exposure settings.filter settings.integrator "
+        "scene sceneHash settings.alpha settings.alphaThroughGlass settings.bvh settings.clamp "
+        "settings.exposure settings.filter settings.integrator "
         "settings.leafSize settings.lightChoice settings.maxDepth settings.occlusionDistance "
         "settings.sampler "
         "settings.seed settings.spp software triangles type ");

@@ -384,7 +384,8 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"leafSize", 2},           {"seed", 5},
                                 {"sampler", "centre"},     {"clamp", 6.0},
                                 {"exposure", 2.0},         {"occlusionDistance", 1e15},
-                                {"filter", "box"},         {"lightChoice", "auto"}};
+                                {"filter", "box"},         {"lightChoice", "auto"},
+                                {"alpha", false},          {"alphaThroughGlass", false}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden =
         renderReport("own.json --width 4 --spp 2 --integrator path --clamp 0.5" + onCpu);
@@ -396,10 +397,20 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
 
 TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
     const nlohmann::json report = renderReport("empty.json --crop 0,1,0,1" + onCpu);
-    const nlohmann::json wanted{{"integrator", "whitted"},   {"spp", 16},       {"maxDepth", 7},
-                                {"bvh", "midpoint"},         {"leafSize", 8},   {"seed", 0},
-                                {"sampler", "sobol"},        {"filter", "box"}, {"exposure", 0.0},
-                                {"occlusionDistance", 1e15}, {"clamp", 0.0},    {"lightChoice", "auto"}};
+    const nlohmann::json wanted{{"integrator", "whitted"},
+                                {"spp", 16},
+                                {"maxDepth", 7},
+                                {"bvh", "midpoint"},
+                                {"leafSize", 8},
+                                {"seed", 0},
+                                {"sampler", "sobol"},
+                                {"filter", "box"},
+                                {"exposure", 0.0},
+                                {"occlusionDistance", 1e15},
+                                {"clamp", 0.0},
+                                {"lightChoice", "auto"},
+                                {"alpha", false},
+                                {"alphaThroughGlass", false}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
 }

@@ -44,10 +44,10 @@ TEST_F(RenderReport, HasAllItsKeys) {
             ofDevice.insert("kernel");
         EXPECT_EQ(keysOf(report.at("device")), ofDevice);
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
-        EXPECT_EQ(
-            keysOf(report.at("settings")),
-            (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh", "leafSize",
-                                   "sampler", "filter", "seed", "clamp", "exposure", "lightChoice"}));
+        EXPECT_EQ(keysOf(report.at("settings")),
+                  (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
+                                         "leafSize", "sampler", "filter", "seed", "clamp", "alpha",
+                                         "alphaThroughGlass", "exposure", "lightChoice"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),
