@@ -93,7 +93,12 @@ std::uint64_t filmHash(const Film &film) {
                 *next++ = std::bit_cast<std::uint32_t>(sum[channel]);
         *next = pixel.sampleCount;
     }
-    return hashBytes(std::as_bytes(std::span(words)));
+    const std::uint64_t hash = hashBytes(std::as_bytes(std::span(words)));
+    std::vector<std::array<float, 2>> transparencies;
+    for (const layout::FilmPixel &pixel : film.pixels)
+        transparencies.push_back({pixel.transparency, pixel.transparencyRest});
+    const bool isOpaque = std::ranges::all_of(transparencies, [](const auto &sum) { return sum[0] == 0.0f; });
+    return isOpaque ? hash : hashBytes(std::as_bytes(std::span(transparencies)), hash);
 }
 
 } // namespace hyalite::core

@@ -36,7 +36,7 @@ struct ShippedFilms {
 [[nodiscard]] ShippedFilms readShippedFilms();
 
 /// Hash of all that a film holds, pixel by pixel, whatever the layout of its records: the sums, their squares and the
-/// sample counts, as little-endian words.
+/// sample counts, as little-endian words; then, if any pixel is transparent, the sums of that.
 [[nodiscard]] std::uint64_t filmHash(const Film &film);
 
 } // namespace hyalite::core

@@ -137,6 +137,10 @@ TEST(FilmHash, IsOfAllThatAFilmHolds) {
         *value = -0.0f;
         EXPECT_TRUE(hashes.insert(filmHash(film)).second);
     }
+    for (float *value : {&film.pixels[1].transparency, &film.pixels[0].transparencyRest}) {
+        *value = 0.5f;
+        EXPECT_TRUE(hashes.insert(filmHash(film)).second);
+    }
     film.pixels[1].sampleCount = 1;
     EXPECT_TRUE(hashes.insert(filmHash(film)).second);
     std::swap(film.pixels[0], film.pixels[1]);
