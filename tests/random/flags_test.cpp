@@ -66,7 +66,8 @@ TEST_P(Flag, IsSetForTheSceneThatNeedsItAndMakesItsPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Each, Flag, ::testing::ValuesIn(flagScenes()), [](const auto &row) {
     std::string name = fmt::format("{}_{}", row.index, row.param.flag);
-    std::ranges::replace(name, ' ', '_');
+    std::ranges::replace_if(
+        name, [](char c) { return c == ' ' || c == '-'; }, '_');
     return name;
 });
 
