@@ -140,7 +140,8 @@ FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &s
             verdict.failure = result.failure->what();
         else if (!result.faults.empty())
             verdict.failure = result.faults.front();
-        if (!result.failure && verdict.hash != film.hash)
+        const bool isWhole = !result.failure && !observer.wantsStop();
+        if (isWhole && verdict.hash != film.hash)
             verdict.difference = explain(backend, scene, result.film, timeline);
     } catch (const Error &error) {
         (error.kind == ErrorKind::LimitExceeded ? verdict.lack : verdict.failure) = error.what();
