@@ -139,8 +139,9 @@ def test_ctrl_c_ends_a_render(each_renderer):
 def test_ctrl_c_ends_checks(device):
     assert seconds_to_interrupt(lambda: hyalite.compare("cornell", device=device, **LONG)) < SOON
     assert seconds_to_interrupt(lambda: hyalite.profile("cornell", device=device, **LONG)) < SOON
-    # A driver finishes the kernels that it compiles, one a processor.
-    assert seconds_to_interrupt(lambda: hyalite.verify(device)) < 5 * SOON
+    # A driver finishes the kernels that it compiles, one a processor: lavapipe takes 16 s for one of them (two slots over
+    # skip lists, all materials), and more beside other tests.
+    assert seconds_to_interrupt(lambda: hyalite.verify(device)) < 30 * SOON
 
 
 def test_ctrl_c_ends_waiting_for_another_thread(renderer):
