@@ -18,8 +18,7 @@ template <class Number>
 CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
                         const NumberSetting<Number> &number, SettingChanges &changes) {
     const auto take = [&changes, &setting, member = number.member](Number given) {
-        changes.push_back(
-            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
+        changes.push_back(changeTo(given, member, setting));
     };
     return addNumberFor<Number>(command, name, take, number.allowed, helpText(setting));
 }
@@ -27,20 +26,17 @@ CLI::Option *addSetting(CLI::App &command, const std::string &name, const Settin
 /// --NAME, or --NAME=false for what the scene has.
 CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
                         const FlagSetting &flag, SettingChanges &changes) {
-    const auto take = [&changes, &setting, member = flag.member](bool given) {
-        changes.push_back(
-            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
+    const auto take = [&changes, &setting, member = flag.member](std::int64_t count) {
+        changes.push_back(changeTo(count > 0, member, setting));
     };
-    return command.add_flag_function(
-        name, [take](std::int64_t count) { take(count > 0); }, helpText(setting));
+    return command.add_flag_function(name, take, helpText(setting));
 }
 
 template <class Value>
 CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
                         const ChoiceSetting<Value> &choice, SettingChanges &changes) {
     const auto take = [&changes, &setting, member = choice.member](Value given) {
-        changes.push_back(
-            {[member, given](RenderSettings &settings) { settings.*member = given; }, &setting});
+        changes.push_back(changeTo(given, member, setting));
     };
     return addChoiceFor<Value>(command, name, take, choice.names, helpText(setting));
 }

@@ -35,10 +35,9 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
         for (const Integrator layer : *layers)
             names.push_back(nameOf(layer));
         identity.emplace_back("layers", fmt::format("{}", fmt::join(names, ",")));
+        if (std::ranges::any_of(*layers, [](Integrator layer) { return rowOf(layer).isOfNumbers(); }))
+            identity.emplace_back("names", hashText(scene.packed.namesHash()));
     }
-    if (layers != nullptr &&
-        std::ranges::any_of(*layers, [](Integrator layer) { return rowOf(layer).isOfNumbers(); }))
-        identity.emplace_back("names", hashText(scene.packed.namesHash()));
     identity.emplace_back("scene and camera", hashText(scene.contentHash()));
     identity.emplace_back("precision", backend.precision());
     identity.emplace_back("kernels of this program", pixelSources());

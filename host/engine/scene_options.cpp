@@ -106,6 +106,13 @@ Number numberOf(std::string_view name, const OptionValue &value, const Interval 
     return numberOf<Number>(name, value, number != nullptr ? *number : std::nan(""), allowed);
 }
 
+bool flagOf(std::string_view name, const OptionValue &value) {
+    const bool *flag = std::get_if<bool>(&value);
+    if (flag == nullptr)
+        refuse(name, value, "true or false");
+    return *flag;
+}
+
 /// Sets one option, by the kind of its row.
 struct Setter {
     SceneOptions &options;
@@ -146,12 +153,7 @@ struct Setter {
             refuse(name, value, "a percentage, as 25%");
         row.member(options) = percent / 100.0;
     }
-    void operator()(const FlagOption &row) const {
-        const bool *flag = std::get_if<bool>(&value);
-        if (flag == nullptr)
-            refuse(name, value, "true or false");
-        row.member(options) = *flag;
-    }
+    void operator()(const FlagOption &row) const { row.member(options) = flagOf(name, value); }
 };
 
 /// The change that a setting's value is.
@@ -160,21 +162,13 @@ struct SettingReader {
     const OptionValue &value;
 
     template <class Number> SettingChange operator()(const NumberSetting<Number> &row) const {
-        const auto given = numberOf<Number>(setting.option, value, row.allowed);
-        return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },
-                &setting};
+        return changeTo(numberOf<Number>(setting.option, value, row.allowed), row.member, setting);
     }
     SettingChange operator()(const FlagSetting &row) const {
-        const bool *given = std::get_if<bool>(&value);
-        if (given == nullptr)
-            refuse(setting.option, value, "true or false");
-        return {[member = row.member, flag = *given](RenderSettings &settings) { settings.*member = flag; },
-                &setting};
+        return changeTo(flagOf(setting.option, value), row.member, setting);
     }
     template <class Value> SettingChange operator()(const ChoiceSetting<Value> &row) const {
-        const Value given = chosenFrom(row.names, textOf(value), setting.option);
-        return {[member = row.member, given](RenderSettings &settings) { settings.*member = given; },
-                &setting};
+        return changeTo(chosenFrom(row.names, textOf(value), setting.option), row.member, setting);
     }
 };
 

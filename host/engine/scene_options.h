@@ -73,6 +73,12 @@ template <class Choices>
     throw OverrideError(std::string(name), refusalText(word, quotedList(words) + suggestion(word, words)));
 }
 
+/// The change of a setting to a value.
+template <class Value>
+[[nodiscard]] SettingChange changeTo(Value value, Value RenderSettings::*member, const Setting &setting) {
+    return {[member, value](RenderSettings &settings) { settings.*member = value; }, &setting};
+}
+
 /// The value of an option or a setting, as programs have it.
 using OptionValue = std::variant<bool, double, std::string, std::vector<double>>;
 

@@ -30,7 +30,7 @@ struct PictureFiles {
 /// Throws Error{OutputNotWritten}, and Error{Usage} for a picture of no format.
 [[nodiscard]] PictureFiles openFiles(RenderRequest request);
 
-/// Throws Error{LimitExceeded} if the films of a picture of this crop do not fit into memory, or not into its format.
+/// Throws Error{LimitExceeded} if the films of a picture of the scene do not fit into memory, or not into its format.
 void requireRoom(const PictureFiles &files, const PreparedScene &scene);
 
 /// The beginning of a picture: the content of its checkpoint, or nothing.

@@ -21,25 +21,21 @@ ComparisonRun openComparison(const ComparisonRequest &request, const PreparedSce
 }
 
 ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene, Observer &observer) {
+    /// The film, and what compositors see of it.
     const auto renderAll = [&](Backend &backend) {
-        return unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop, observer,
-                                   {.name = backend.name()}));
-    };
-    const auto alphas = [&](Backend &backend, const Film &film) {
+        BackendResult result = unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop,
+                                                   observer, {.name = backend.name()}));
         const std::vector<ViewFilm> views =
             renderViews(backend, scene, scene.views, {}, {}, observer, TimeLimit());
-        return alphasOf(film, views, scene.loaded.settings);
+        LoadedImage image{result.film.toImage(), Encoding::Linear,
+                          alphasOf(result.film, views, scene.loaded.settings)};
+        return std::pair(std::move(result), std::move(image));
     };
-    BackendResult a = renderAll(*run.first);
-    std::vector<float> alphaA = alphas(*run.first, a.film);
-    BackendResult b = renderAll(*run.second);
-    std::vector<float> alphaB = alphas(*run.second, b.film);
-    ComparedRenders renders{std::move(a), std::move(b), {}, {}, {}};
-    renders.imageA = renders.a.film.toImage();
-    renders.imageB = renders.b.film.toImage();
-    renders.comparison = compareImages(LoadedImage{renders.imageB, Encoding::Linear, std::move(alphaB)},
-                                       LoadedImage{renders.imageA, Encoding::Linear, std::move(alphaA)});
-    return renders;
+    auto [a, imageA] = renderAll(*run.first);
+    auto [b, imageB] = renderAll(*run.second);
+    ImageComparison comparison = compareImages(imageB, imageA);
+    return {std::move(a), std::move(b), std::move(imageA.image), std::move(imageB.image),
+            std::move(comparison)};
 }
 
 glm::ivec2 worstPixel(const ComparedRenders &renders) {
