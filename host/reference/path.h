@@ -7,41 +7,25 @@
 // the other. Each vertex has pairs of random numbers of its own (shaders/math/dimensions.glsl).
 #pragma once
 
-#include "host/film/ray_counts.h"
-#include "host/reference/closest_hit.h"
-#include "host/reference/media_at_origin.h"
-#include "host/reference/transparency.h"
+#include "host/reference/specular.h"
 
 #include <bit>
 #include <optional>
-#include <vector>
 
 namespace hyalite::core::reference {
 
 /// Traces camera samples through the scene. Each thread has its own instance, because it keeps counts.
-template <class Real, class Counter = NoCounter> class PathIntegrator {
+template <class Real, class Counter = NoCounter> class PathIntegrator : public SpecularPath<Real, Counter> {
   public:
     PathIntegrator(const PackedScene &scene, const RenderSettings &settings)
-        : scene_(scene, settings), transparency_(alphaKindOf(settings)) {}
+        : Base(scene, settings, CarriesRadiance::Yes) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
     /// the picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const PrimaryRay<Real> primary = primaryRayThrough<Real>(
-            scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
-        ++counts_.primary;
-        pixel_ = pixel;
-        sampleIndex_ = sampleIndex;
         radiance_ = Vec3<Real>(Real(0));
-        throughput_ = Vec3<Real>(Real(1));
-        scatterPdf_ = 0;
-        transparency_.begin();
-        depth_ = 0;
-        mediaInside_ = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
-                                     [&](const Ray<Real> &ray) { traceRay(ray); });
-        depth_ = 1;
-        std::optional<Ray<Real>> ray = Ray<Real>{primary.origin, primary.direction};
+        std::optional<Ray<Real>> ray = beginPath(pixel, sampleIndex, shift);
         while (ray) {
             ray = followRay(*ray);
             ++depth_;
@@ -52,30 +36,17 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
     /// Of that sample.
     [[nodiscard]] Real transparency() const { return transparency_.ofSample(); }
 
-    [[nodiscard]] const RayCounts &counts() const { return counts_; }
-    /// Of the traversal.
-    [[nodiscard]] Counter &counter() { return counter_; }
-
-    /// Appends all further events to `events`, which must outlive the integrator.
-    void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
-
   private:
+    using Base = SpecularPath<Real, Counter>;
+    using Base::beginPath, Base::crossingOf, Base::isSpecularHere, Base::mediumIndex, Base::reflect;
+    using Base::scatterPdf_, Base::mediaInside_, Base::counts_, Base::counter_;
+    using Base::scatterSmoothDielectric, Base::traceEvent, Base::traceRay, Base::transmittance;
+    using Base::scene_, Base::pixel_, Base::sampleIndex_, Base::depth_, Base::throughput_,
+        Base::transparency_;
+    using Base::vertexBits, Base::weaken;
+    using typename Base::Crossing;
+
     static constexpr std::uint32_t firstRouletteDepth = 4; // every path may have this many segments
-
-    void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
-        if (events_ != nullptr)
-            events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
-    }
-
-    void traceRay(const Ray<Real> &ray) {
-        traceEvent(layout::traceRayOrigin, 0, ray.origin);
-        traceEvent(layout::traceRayDirection, 0, ray.direction);
-    }
-
-    [[nodiscard]] glm::uvec2 vertexBits(std::uint32_t pair) const {
-        const std::uint32_t number = vertexPair(depth_, pair);
-        return sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_);
-    }
 
     [[nodiscard]] Vec2<Real> lobeChoice() const {
         const std::uint32_t number = lobePair(depth_);
@@ -89,8 +60,6 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         radiance_ = radiance_ + added;
         traceEvent(layout::traceRadiance, 0, radiance_);
     }
-
-    void weaken(const Vec3<Real> &factor) { throughput_ = withoutTiny<Real>(throughput_ * factor); }
 
     /// Adds the emission of the surface that the ray has hit, with the multiple importance weight against sampling that
     /// point as a light.
@@ -133,20 +102,6 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
         addRadiance(throughput_ * weight, found.radiance);
     }
 
-    /// Transmittance of the glass around the path, over this distance.
-    [[nodiscard]] Vec3<Real> transmittance(Real distance) const {
-        const std::uint32_t medium = mediumAround(mediaInside_);
-        return medium != layout::noMaterial
-                   ? expNegative<Real>(Vec3<Real>(scene_.packed.materials[medium].absorption) * distance)
-                   : Vec3<Real>(Real(1));
-    }
-
-    [[nodiscard]] Real mediumIndex(std::uint32_t medium) const {
-        return medium != layout::noMaterial
-                   ? static_cast<Real>(scene_.packed.materials[medium].refractiveIndex)
-                   : Real(1);
-    }
-
     /// Russian roulette: ends long paths of low throughput at random and raises the weight of the survivors. Returns
     /// whether the path survives.
     [[nodiscard]] bool survivesRoulette() {
@@ -159,73 +114,6 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             return false;
         throughput_ *= Real(1) / survival;
         return true;
-    }
-
-    [[nodiscard]] Ray<Real> reflect(const Ray<Real> &ray, const Surface<Real> &surface,
-                                    const Vec3<Real> &normal, std::uint32_t primitive) {
-        const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
-        scatterPdf_ = 0;
-        transparency_.endSeeingThrough();
-        ++counts_.reflection;
-        return {offsetRayOrigin(scene_, surface, direction), direction, primitive};
-    }
-
-    /// The media on both sides of a glass surface.
-    struct Crossing {
-        std::uint32_t before; ///< medium counts as in shaders/bsdf/media.glsl
-        std::uint32_t beyond;
-        Real eta;             ///< refractive index before divided by the one beyond
-        bool isNullInterface; ///< the same glass is effective on both sides
-    };
-
-    [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
-        // Glass that is left without having been entered changes nothing: paths begin in what is around the eye.
-        const std::uint32_t before = mediaInside_;
-        const std::uint32_t beyond =
-            isEntering ? enterMedium(before, materialIndex) : leaveMedium(before, materialIndex);
-        const std::uint32_t medium = mediumAround(before);
-        const std::uint32_t mediumBeyond = mediumAround(beyond);
-        return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};
-    }
-
-    /// The next ray at smooth glass. It passes straight on if the same glass is effective on both sides; otherwise it
-    /// is reflected or refracted, chosen with the probability of the reflectance.
-    [[nodiscard]] Ray<Real> scatterSmoothDielectric(const Ray<Real> &ray, const Surface<Real> &surface,
-                                                    std::uint32_t materialIndex, std::uint32_t primitive) {
-        const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
-        const Crossing crossing = crossingOf(materialIndex, isEntering);
-        if (crossing.isNullInterface) {
-            mediaInside_ = crossing.beyond;
-            scatterPdf_ = 0; // light is never sampled through glass
-            return {offsetRayOrigin(scene_, surface, ray.direction), ray.direction, primitive};
-        }
-        const Vec3<Real> geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
-        const Vec3<Real> shadingFacing = isEntering ? surface.normal : -surface.normal;
-        const Vec3<Real> facing =
-            dotProduct(ray.direction, shadingFacing) < 0 ? shadingFacing : geometricFacing;
-        const Real eta = crossing.eta;
-        const DielectricFresnel<Real> glass = fresnelDielectric(ray.direction, facing, eta);
-        traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
-        if (unitFloat<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
-            mediaInside_ = crossing.before;
-            return reflect(ray, surface, facing, primitive);
-        }
-        mediaInside_ = crossing.beyond;
-        throughput_ *= eta * eta;
-        scatterPdf_ = 0;
-        ++counts_.refraction;
-        return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
-    }
-
-    /// Whether the material is specular here: a mirror or clear glass. Rough glass with the same index on both sides is
-    /// clear.
-    [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
-                                      bool isEntering) const {
-        if (isGlass(scene_, material) && material.alpha > 0) {
-            const Crossing crossing = crossingOf(materialIndex, isEntering);
-            return crossing.isNullInterface || crossing.eta == Real(1);
-        }
-        return isSpecular(material);
     }
 
     /// The next ray of the path; empty at its end.
@@ -364,19 +252,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator {
             addRadiance(weight, Vec3<Real>(Real(1)));
     }
 
-    const SceneView<Real> scene_;
-    glm::uvec2 pixel_{0};
-    std::uint32_t sampleIndex_ = 0;
-    std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> radiance_{Real(0)};
-    Vec3<Real> throughput_{Real(1)};
-    Transparency<Real> transparency_;
-    LitPoint<Real> litPoint_{};     ///< where the current ray was scattered
-    Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
-    std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
-    RayCounts counts_;
-    Counter counter_;
-    std::vector<layout::TraceEvent> *events_ = nullptr;
+    LitPoint<Real> litPoint_{}; ///< where the current ray was scattered
 };
 
 } // namespace hyalite::core::reference
