@@ -136,7 +136,9 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
     for (const core::ViewFilm &view : content->views)
         content->isFinished =
             content->isFinished &&
-            core::finishedWork(view.film, whole, core::samplesOfView(view.view, spp)).isComplete;
+            core::finishedWork(view.film, whole,
+                               core::samplesOfView(view.view, spp, content->settings.areLayersThrough))
+                .isComplete;
     content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
     for (const core::ViewFilm &view : content->views)
         addLayers(view, *content);

@@ -79,7 +79,9 @@ void requireEffect(const SceneOptions &options, const RenderSettings &settings) 
                                                   nameOf(settings.filter)));
     for (const SettingChange &change : options.settings) {
         const auto isUsedBy = [&](Integrator user) {
-            return std::ranges::find(change.option->integrators, user) != change.option->integrators.end();
+            const bool followsPaths = looksThrough(user, settings) && change.option->key == "maxDepth";
+            return followsPaths ||
+                   std::ranges::find(change.option->integrators, user) != change.option->integrators.end();
         };
         if (change.option == nullptr || change.option->integrators.empty() || isUsedBy(integrator) ||
             std::ranges::any_of(options.views, isUsedBy))

@@ -48,8 +48,8 @@ Place placeOf(std::span<const Crop> squares, std::size_t index) {
 /// Pixels of the part that lack samples of the picture or of a layer.
 std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
     const auto samplesOfLayer = [&](std::size_t layer) {
-        return static_cast<std::uint32_t>(
-            samplesOfView(origin.layers[layer].view, static_cast<int>(file.samplesPerPixel)));
+        return static_cast<std::uint32_t>(samplesOfView(
+            origin.layers[layer].view, static_cast<int>(file.samplesPerPixel), origin.areLayersThrough));
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < file.pixels.size(); ++i) {

@@ -128,7 +128,8 @@ PartOrigin readPartOrigin(std::string_view text) {
         const nlohmann::ordered_json &settings = provenance.at("settings");
         origin.integrator = integratorOf(settings.at("integrator"));
         origin.exposureStops = settings.at("exposure").get<double>();
-        origin.hasAlpha = settings.value("alpha", false); // older parts have none
+        origin.hasAlpha = settings.value("alpha", false); // older parts have neither this nor the next
+        origin.areLayersThrough = settings.value("layersThrough", false);
         const nlohmann::ordered_json &device = provenance.at("device");
         origin.device = fmt::format("{}, {}", device.at("name").get<std::string>(),
                                     device.at("driver").get<std::string>());

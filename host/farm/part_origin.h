@@ -31,6 +31,7 @@ struct PartOrigin {
     Integrator integrator = Integrator::Whitted;
     double exposureStops = 0.0;
     bool hasAlpha = false;
+    bool areLayersThrough = false;
     std::string device; ///< its name and driver: "llvmpipe, Mesa 22.3.6"
 
     [[nodiscard]] std::vector<Integrator> views() const; ///< of the layers

@@ -15,9 +15,15 @@ struct ViewFilm {
     std::vector<std::string> names{}; ///< of a view of numbers: that of number n is at n - 1
 };
 
+/// Whether a layer of an image has one sample for each pixel, at its centre. A layer that looks through has those of the
+/// image: it goes with the colours there, which are means over lens, filter and choices at glass.
+[[nodiscard]] constexpr bool isOfCentres(Integrator view, bool areLayersThrough) {
+    return rowOf(view).isOfCentres && !(areLayersThrough && rowOf(view).canLookThrough);
+}
+
 /// The samples of a view for each pixel: those of the image, or the pixel's centre.
-[[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel) {
-    return rowOf(view).isOfCentres ? 1 : samplesPerPixel;
+[[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel, bool areLayersThrough) {
+    return isOfCentres(view, areLayersThrough) ? 1 : samplesPerPixel;
 }
 
 } // namespace hyalite::core

@@ -71,7 +71,8 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantHasTriangles] = scene.hasTriangles;
     constants[layout::constantHasNormals] = scene.hasNormals;
     constants[layout::constantHasInstances] = !scene.instances.empty();
-    constants[layout::constantHasSpecular] = scene.hasSpecular;
+    const bool isLookingThrough = looksThrough(job.settings.integrator, job.settings);
+    constants[layout::constantHasSpecular] = scene.hasSpecular || isLookingThrough; // metals of glTF
     constants[layout::constantHasDielectric] = scene.hasDielectric;
     constants[layout::constantHasEmission] = scene.hasEmission;
     constants[layout::constantEmitterCount] = static_cast<std::uint32_t>(scene.emitters.size());
@@ -91,6 +92,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantView] = rowOf(job.settings.integrator).view;
     constants[layout::constantPlaceCount] = static_cast<std::uint32_t>(scene.places.size());
     constants[layout::constantTallies] = rowOf(job.settings.integrator).tallies();
+    constants[layout::constantLooksThrough] = isLookingThrough;
     constants[layout::constantSampler] = samplerOf(job.settings);
     constants[layout::constantStackSize] = plan.stackSize;
     constants[layout::constantIsTracing] = job.isTraced;

@@ -97,8 +97,8 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
         std::vector<std::string> names = scene.packed.namesOf(view);
         RenderSettings settings = ofImage;
         settings.integrator = view;
-        settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel);
-        if (rowOf(view).isOfCentres)
+        settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel, ofImage.areLayersThrough);
+        if (isOfCentres(view, ofImage.areLayersThrough))
             settings.sampler = SamplerKind::Centre;
         Film film(scene.crop);
         RenderTask task{.name = std::string(nameOf(view)), .limit = limit};
@@ -113,7 +113,7 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
         if (!isFinished && !observer.wantsStop() && !limit.isReached()) {
             film =
                 unlessFailed(render(backend, scene.packed, settings, std::move(film), observer, task)).film;
-            if (view == Integrator::Depth)
+            if (view == Integrator::Depth && isOfCentres(view, ofImage.areLayersThrough))
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
         }
         films.push_back({view, std::move(film), std::move(names)});

@@ -10,7 +10,8 @@
 namespace hyalite::core {
 
 /// Renders the views, whose rows have layer channels, of `scene`. Depths become planar, along the view direction, and
-/// 1e10 where nothing is met, as compositors have them; in a panorama they stay distances. Pixels outside of the
+/// 1e10 where nothing is met, as compositors have them; in a panorama they stay distances, and lengths of paths where
+/// they look through. Pixels outside of the
 /// squares stay black; empty: there are none. `begun` are films of the first views that have some samples, as of a
 /// render that was stopped. Once the observer wants a stop, or the limit is reached, the rest gets no samples.
 [[nodiscard]] std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
@@ -24,7 +25,7 @@ namespace hyalite::core {
                                           const RenderSettings &settings);
 
 /// The layer by the name of the view, with the channels of its row, except for depths: the channel Z, as compositors
-/// know it; or those of a Cryptomatte. Normals are of unit length; shadows are the share of a pixel that they hide.
+/// know it; or those of a Cryptomatte. Normals are of unit length, but for means of those that look through; shadows are the share of a pixel that they hide.
 /// Where a ray leaves the scene, values are 0, except for depths and occlusion. `film` must outlive the layers.
 [[nodiscard]] std::vector<Layer> layersOf(const ViewFilm &film);
 /// Those of all `films`.

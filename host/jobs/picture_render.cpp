@@ -101,15 +101,16 @@ std::optional<ResumedCheckpoint> readBegun(const RenderRequest &request, const R
 }
 
 bool isPartFinished(const PictureFiles &files, const PreparedScene &scene, const PictureBeginning &begun) {
-    const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
+    const RenderSettings &settings = scene.loaded.settings;
     if (!files.request.part || !begun.report.resumed || !begun.checkpointDamage.empty())
         return false;
     const std::span<const Crop> squares = begun.squares;
-    bool isFinished = finishedWork(*begun.film, squares, samplesPerPixel).isComplete;
+    bool isFinished = finishedWork(*begun.film, squares, settings.samplesPerPixel).isComplete;
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
-        isFinished =
-            isFinished &&
-            finishedWork(begun.layers[i], squares, samplesOfView(scene.views[i], samplesPerPixel)).isComplete;
+        isFinished = isFinished && finishedWork(begun.layers[i], squares,
+                                                samplesOfView(scene.views[i], settings.samplesPerPixel,
+                                                              settings.areLayersThrough))
+                                       .isComplete;
     return isFinished;
 }
 
@@ -187,12 +188,14 @@ class PictureRender {
             if (rowOf(layer.view).isOfNumbers() && !rowOf(layer.view).tallies())
                 report_.numbers.emplace_back(nameOf(layer.view), layer.names);
         const std::optional<Stop> stop = session_.observer().wantsStop();
-        const int samplesPerPixel = session_.scene().loaded.settings.samplesPerPixel;
-        report_.finished = finishedWork(result.film, squares_, samplesPerPixel);
+        const RenderSettings &settings = session_.scene().loaded.settings;
+        report_.finished = finishedWork(result.film, squares_, settings.samplesPerPixel);
         for (const ViewFilm &layer : layers_)
             report_.finished.isComplete =
                 report_.finished.isComplete &&
-                finishedWork(layer.film, squares_, samplesOfView(layer.view, samplesPerPixel)).isComplete;
+                finishedWork(layer.film, squares_,
+                             samplesOfView(layer.view, settings.samplesPerPixel, settings.areLayersThrough))
+                    .isComplete;
         if (result.failure && report_.finished.sampleCount == 0)
             throw Error(*result.failure);
         if (stop && report_.finished.sampleCount == 0)

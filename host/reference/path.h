@@ -26,6 +26,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
         radiance_ = Vec3<Real>(Real(0));
         std::optional<Ray<Real>> ray = beginPath(pixel, sampleIndex, shift);
+        enterMedia(ray->origin);
         while (ray) {
             ray = followRay(*ray);
             ++depth_;
@@ -38,7 +39,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
 
   private:
     using Base = SpecularPath<Real, Counter>;
-    using Base::beginPath, Base::crossingOf, Base::isSpecularHere, Base::mediumIndex, Base::reflect;
+    using Base::beginPath, Base::enterMedia, Base::crossingOf, Base::isSpecularHere, Base::mediumIndex,
+        Base::reflect;
     using Base::scatterPdf_, Base::mediaInside_, Base::counts_, Base::counter_;
     using Base::scatterSmoothDielectric, Base::traceEvent, Base::traceRay, Base::transmittance;
     using Base::scene_, Base::pixel_, Base::sampleIndex_, Base::depth_, Base::throughput_,

@@ -41,11 +41,16 @@ template <class Real, class Counter> class SpecularPath {
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
         transparency_.begin();
-        depth_ = 0;
-        mediaInside_ = mediaAtOrigin(scene_, primary.origin, pixel, sampleIndex, counter_,
-                                     [&](const Ray<Real> &ray) { traceRay(ray); });
         depth_ = 1;
         return {primary.origin, primary.direction};
+    }
+
+    /// Finds the glass around the origin of the primary ray.
+    void enterMedia(const Vec3<Real> &origin) {
+        depth_ = 0;
+        mediaInside_ = mediaAtOrigin(scene_, origin, pixel_, sampleIndex_, counter_,
+                                     [&](const Ray<Real> &ray) { traceRay(ray); });
+        depth_ = 1;
     }
 
     void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
@@ -107,9 +112,10 @@ template <class Real, class Counter> class SpecularPath {
     }
 
     /// The next ray at smooth glass. It passes straight on if the same glass is effective on both sides; otherwise it
-    /// is reflected or refracted, chosen with the probability of the reflectance.
+    /// is reflected or refracted, chosen with the probability of the reflectance: isRefracted_.
     [[nodiscard]] Ray<Real> scatterSmoothDielectric(const Ray<Real> &ray, const Surface<Real> &surface,
                                                     std::uint32_t materialIndex, std::uint32_t primitive) {
+        isRefracted_ = false;
         const bool isEntering = dotProduct(ray.direction, surface.geometricNormal) < 0;
         const Crossing crossing = crossingOf(materialIndex, isEntering);
         if (crossing.isNullInterface) {
@@ -133,6 +139,7 @@ template <class Real, class Counter> class SpecularPath {
             throughput_ *= eta * eta;
         scatterPdf_ = 0;
         ++counts_.refraction;
+        isRefracted_ = true;
         return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
     }
 
@@ -156,6 +163,7 @@ template <class Real, class Counter> class SpecularPath {
     Transparency<Real> transparency_;
     Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
+    bool isRefracted_ = false;      ///< at the last smooth glass
     RayCounts counts_;
     Counter counter_;
 

@@ -4,85 +4,67 @@
 // everything further away than `occlusionDistance` left out: Zhukov, Iones and Kronin, "An Ambient Light Illumination
 // Model", 1998.
 //
-// The shadow of a shadow catcher: the kernel's file says what it is.
+// The shadow of a shadow catcher, and looking through mirrors and glass: the kernel's file says what they are.
 #pragma once
 
-#include "host/film/ray_counts.h"
-#include "host/reference/closest_hit.h"
+#include "host/reference/specular.h"
 
-#include <vector>
+#include <optional>
 
 namespace hyalite::core::reference {
 
-/// Traces camera samples to their first hits. Each thread has its own instance, because it keeps counts.
-template <class Real, class Counter = NoCounter> class ViewIntegrator {
+/// Traces camera samples to their first hits, or on through mirrors and glass. Each thread has its own instance, because
+/// it keeps counts.
+template <class Real, class Counter = NoCounter> class ViewIntegrator : public SpecularPath<Real, Counter> {
   public:
     /// `view` is one of layout::view...
     ViewIntegrator(const PackedScene &scene, const RenderSettings &settings)
-        : scene_(scene, settings), view_(rowOf(settings.integrator).view) {}
+        : Base(scene, settings, CarriesRadiance::No), view_(rowOf(settings.integrator).view),
+          looksThrough_(looksThrough(settings.integrator, settings)) {}
 
     /// The colour of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn
     /// how the picture changes around it.
     [[nodiscard]] Vec3<Real> sampleRadiance(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
                                             const Vec2<Real> &shift = Vec2<Real>(Real(0))) {
-        const PrimaryRay<Real> primary = primaryRayThrough<Real>(
-            scene_, pixel, sampleOffset<Real>(scene_, pixel, sampleIndex) + shift, sampleIndex);
-        ++counts_.primary;
-        pixel_ = pixel;
-        sampleIndex_ = sampleIndex;
-        const Ray<Real> ray{primary.origin, primary.direction, layout::noPrimitive, {pixel, sampleIndex, 2}};
-        depth_ = 1;
-        const Hit<Real> hit = traceToHit(ray);
-        if (hit.primitive == layout::noPrimitive)
-            return show(Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0)));
+        Ray<Real> ray = beginPath(pixel, sampleIndex, shift);
+        if (looksThrough_)
+            enterMedia(ray.origin);
+        ray.keys = {pixel, sampleIndex, 2};
+        pathLength_ = 0;
+        Hit<Real> hit;
+        Surface<Real> surface;
         std::uint32_t materialIndex;
-        const Surface<Real> surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
-        traceEvent(layout::traceSurfacePosition, 0, surface.position);
-        traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
-        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
-                                                          layout::texturesMaterials, surface.position);
-        switch (view_) {
-        case layout::viewNormal:
-            return show(normalColour(surface.normal));
-        case layout::viewDepth:
-            return show(Vec3<Real>(hit.distance));
-        case layout::viewCoordinates: {
-            const Vec2<Real> uv = hitUvs(scene_, hit, surface.position).first;
-            return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
+        for (;; ++depth_) {
+            hit = traceToHit(ray);
+            if (hit.primitive == layout::noPrimitive)
+                return show(ofNothing());
+            surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
+            traceEvent(layout::traceSurfacePosition, 0, surface.position);
+            traceEvent(layout::traceSurfaceNormal, 0, surface.normal);
+            if (!looksThrough_)
+                break;
+            weaken(transmittance(hit.distance));
+            const std::optional<Ray<Real>> next = lookThrough(ray, hit, surface, materialIndex);
+            if (!next) {
+                surface = facing(ray, surface);
+                break;
+            }
+            ray = *next;
+            ray.keys = {pixel, sampleIndex, 2 * (depth_ + 1)};
         }
-        case layout::viewId:
-            return show(idColour<Real>(hit.primitive));
-        case layout::viewAlbedo:
-            return show(isColourless(material) ? Vec3<Real>(Real(1)) : Vec3<Real>(material.albedo));
-        case layout::viewShadow:
-            return catchesShadows(material) ? catchShadow(ray, surface, hit.primitive)
-                                            : show(Vec3<Real>(Real(0)));
-        case layout::viewObject:
-        case layout::viewMaterial:
-        case layout::viewAsset:
-        case layout::viewPlace:
-            return show(Vec3<Real>(Real(numberOf(scene_, view_, hit.primitive, materialIndex))));
-        default:
-            return seeSky(ray, surface, hit.primitive);
-        }
+        return show(ray, hit, surface, materialIndex);
     }
-
-    [[nodiscard]] const RayCounts &counts() const { return counts_; }
-    /// Of the traversal.
-    [[nodiscard]] Counter &counter() { return counter_; }
-
-    /// Appends all further events to `events`, which must outlive the integrator.
-    void traceTo(std::vector<layout::TraceEvent> &events) { events_ = &events; }
 
   private:
-    void traceEvent(std::uint32_t quantity, std::uint32_t integer, const Vec3<Real> &value) {
-        if (events_ != nullptr)
-            events_->push_back({quantity, sampleIndex_, depth_, integer, glm::vec3(value), 0});
-    }
+    using Base = SpecularPath<Real, Counter>;
+    using Base::beginPath, Base::enterMedia, Base::isSpecularHere, Base::reflect,
+        Base::scatterSmoothDielectric;
+    using Base::isRefracted_, Base::counts_, Base::counter_;
+    using Base::scene_, Base::pixel_, Base::sampleIndex_, Base::depth_, Base::throughput_;
+    using Base::traceEvent, Base::traceRay, Base::transmittance, Base::vertexBits, Base::weaken;
 
     [[nodiscard]] Hit<Real> traceToHit(const Ray<Real> &ray) {
-        traceEvent(layout::traceRayOrigin, 0, ray.origin);
-        traceEvent(layout::traceRayDirection, 0, ray.direction);
+        traceRay(ray);
         const Hit<Real> hit = closestHit(scene_, ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         return hit;
@@ -91,6 +73,89 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
     [[nodiscard]] Vec3<Real> show(const Vec3<Real> &value) {
         traceEvent(layout::traceRadiance, 0, value);
         return value;
+    }
+
+    /// What a path that has left the scene shows: a normal has no length.
+    [[nodiscard]] Vec3<Real> ofNothing() const {
+        if (looksThrough_ && view_ == layout::viewNormal)
+            return normalColour(Vec3<Real>(Real(0)));
+        return Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0));
+    }
+
+    [[nodiscard]] Vec3<Real> show(const Ray<Real> &ray, const Hit<Real> &hit, const Surface<Real> &surface,
+                                  std::uint32_t materialIndex) {
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
+                                                          layout::texturesMaterials, surface.position);
+        switch (view_) {
+        case layout::viewNormal:
+            return show(normalColour(surface.normal));
+        case layout::viewDepth:
+            return show(Vec3<Real>(pathLength_ + hit.distance));
+        case layout::viewCoordinates: {
+            const Vec2<Real> uv = hitUvs(scene_, hit, surface.position).first;
+            return show({fractionOf(uv.x), fractionOf(uv.y), Real(0)});
+        }
+        case layout::viewId:
+            return show(idColour<Real>(hit.primitive));
+        case layout::viewAlbedo: {
+            const Vec3<Real> colour =
+                isColourless(material) ? Vec3<Real>(Real(1)) : Vec3<Real>(material.albedo);
+            return show(looksThrough_ ? withoutTiny<Real>(throughput_ * colour) : colour);
+        }
+        case layout::viewShadow:
+            return catchesShadows(material) ? catchShadow(facing(ray, surface), hit.primitive)
+                                            : show(Vec3<Real>(Real(0)));
+        case layout::viewObject:
+        case layout::viewMaterial:
+        case layout::viewAsset:
+        case layout::viewPlace:
+            return show(Vec3<Real>(Real(numberOf(scene_, view_, hit.primitive, materialIndex))));
+        default:
+            return seeSky(facing(ray, surface), hit.primitive);
+        }
+    }
+
+    /// The next ray, if the surface is looked through.
+    [[nodiscard]] std::optional<Ray<Real>> lookThrough(const Ray<Real> &ray, const Hit<Real> &hit,
+                                                       const Surface<Real> &surface,
+                                                       std::uint32_t materialIndex) {
+        if (depth_ >= scene_.frame.maxDepth)
+            return std::nullopt;
+        const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
+                                                          layout::texturesMaterials, surface.position);
+        const bool isBehind = dotProduct(ray.direction, surface.geometricNormal) > 0;
+        const bool isClear =
+            isSpecularHere(material, materialIndex, !isBehind) || isLookedThrough(scene_, material);
+        const bool isMixed = isMixture(scene_, material);
+        if (!isClear || (isBehind && isMixed && isBlackBehind(scene_, material)))
+            return std::nullopt;
+        if (view_ == layout::viewDepth)
+            static_cast<void>(show(Vec3<Real>(pathLength_ += hit.distance)));
+        const bool isMetal = isLookedAtAsMetal(material);
+        if (isGlass(scene_, material) && !isMetal) {
+            const Ray<Real> next = scatterSmoothDielectric(ray, surface, materialIndex, hit.primitive);
+            if (isRefracted_)
+                weaken(glassTint(scene_, material));
+            return next;
+        }
+        if (isThinGlass(scene_, material) && !isMetal)
+            return scatterThinGlass(ray, surface, material, hit.primitive);
+        const Real cosine = abs(dotProduct(ray.direction, surface.normal));
+        weaken(isMixed ? schlickReflectance(cosine, material.albedo, Real(1))
+                       : mirrorReflectance(scene_, material, cosine));
+        return reflect(ray, surface, surface.normal, hit.primitive);
+    }
+
+    /// The next ray at thin glass, which is reflected or passes straight through.
+    [[nodiscard]] Ray<Real> scatterThinGlass(const Ray<Real> &ray, const Surface<Real> &surface,
+                                             const MaterialRecord<Real> &material, std::uint32_t primitive) {
+        const Vec3<Real> reflectance =
+            schlickReflectance(abs(dotProduct(ray.direction, surface.normal)),
+                               dielectricReflectance(material), material.dielectricWeight);
+        if (unitFloat<Real>(vertexBits(pairChoice).x) < largestComponent(reflectance))
+            return reflect(ray, surface, surface.normal, primitive);
+        weaken(glassTint(scene_, material));
+        return {offsetRayOrigin(scene_, surface, ray.direction), ray.direction, primitive};
     }
 
     /// The surface as it is seen from the ray's side.
@@ -102,10 +167,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         return surface;
     }
 
-    [[nodiscard]] Vec3<Real> seeSky(const Ray<Real> &ray, const Surface<Real> &seen,
-                                    std::uint32_t primitive) {
-        const Surface<Real> surface = facing(ray, seen);
-        const glm::uvec2 bits = bitsOf(occlusionPair);
+    [[nodiscard]] Vec3<Real> seeSky(const Surface<Real> &surface, std::uint32_t primitive) {
+        const glm::uvec2 bits = sampleBits(pairKeys(pixel_, scene_.frame.seed, occlusionPair), sampleIndex_);
         const Vec3<Real> direction = sampleCosine(surface.normal, unitFloats<Real>(bits));
         if (!(dotProduct(surface.geometricNormal, direction) > 0))
             return Vec3<Real>(Real(0));
@@ -119,18 +182,12 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         return isBlocked ? Vec3<Real>(Real(0)) : show(Vec3<Real>(Real(1)));
     }
 
-    [[nodiscard]] glm::uvec2 bitsOf(std::uint32_t pair) const {
-        return sampleBits(pairKeys(pixel_, scene_.frame.seed, pair), sampleIndex_);
-    }
-
     /// On a shadow catcher: 1, the light of a sample, and what of it is blocked.
-    [[nodiscard]] Vec3<Real> catchShadow(const Ray<Real> &ray, const Surface<Real> &seen,
-                                         std::uint32_t primitive) {
-        const Surface<Real> surface = facing(ray, seen);
-        const EmitterChoice<Real> choice = chooseEmitter(scene_, {surface.position, surface.normal, false},
-                                                         bitsOf(vertexPair(1, pairChoice)).x);
+    [[nodiscard]] Vec3<Real> catchShadow(const Surface<Real> &surface, std::uint32_t primitive) {
+        const EmitterChoice<Real> choice =
+            chooseEmitter(scene_, {surface.position, surface.normal, false}, vertexBits(pairChoice).x);
         const LightSample<Real> light =
-            sampleEmitter<Real>(scene_, choice, surface.position, bitsOf(vertexPair(1, pairLight)));
+            sampleEmitter<Real>(scene_, choice, surface.position, vertexBits(pairLight));
         const Real cosine = dotProduct(surface.normal, light.direction);
         const bool isLit = cosine > 0 && dotProduct(surface.geometricNormal, light.direction) > 0;
         const Real unblocked = isLit ? withoutTiny(luminance(light.radiance) * cosine) : Real(0);
@@ -175,14 +232,9 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator {
         }
     }
 
-    const SceneView<Real> scene_;
     const std::uint32_t view_;
-    RayCounts counts_;
-    Counter counter_;
-    std::vector<layout::TraceEvent> *events_ = nullptr;
-    glm::uvec2 pixel_{0};
-    std::uint32_t sampleIndex_ = 0;
-    std::uint32_t depth_ = 1; ///< segment number of the current ray
+    const bool looksThrough_;
+    Real pathLength_ = 0; ///< without the current segment
 };
 
 } // namespace hyalite::core::reference

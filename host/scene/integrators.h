@@ -40,7 +40,8 @@ struct IntegratorRow {
     std::string_view layerChannels{};        ///< of a view: those of its layer in an EXR
     /// As a layer it has one sample, at the pixel's centre: a mean of depths or normals belongs to no surface.
     bool isOfCentres = false;
-    bool showsLight = false; ///< a sample is radiance, and the background may be transparent
+    bool canLookThrough = false; ///< of a view: settings may ask for what mirrors and glass show
+    bool showsLight = false;     ///< a sample is radiance, and the background may be transparent
     /// Of a view of numbers whose samples are counted, as a tally (host/film/tally.h): the name of the Cryptomatte.
     std::string_view cryptomatte{};
     bool followsPaths = false;   ///< over several segments: maxDepth bounds them
@@ -82,20 +83,23 @@ inline constexpr auto integratorTable = std::to_array<IntegratorRow>({
      .kernel = "view",
      .view = layout::viewNormal,
      .layerChannels = "XYZ",
-     .isOfCentres = true},
+     .isOfCentres = true,
+     .canLookThrough = true},
     {.integrator = Integrator::Depth,
      .name = "depth",
      .help = "distance of the first hit",
      .kernel = "view",
      .view = layout::viewDepth,
      .layerChannels = "Z",
-     .isOfCentres = true},
+     .isOfCentres = true,
+     .canLookThrough = true},
     {.integrator = Integrator::Albedo,
      .name = "albedo",
      .help = "albedo of the first hit",
      .kernel = "view",
      .view = layout::viewAlbedo,
-     .layerChannels = "RGB"},
+     .layerChannels = "RGB",
+     .canLookThrough = true},
     {.integrator = Integrator::Id,
      .name = "id",
      .help = "a colour for each primitive",

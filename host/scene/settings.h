@@ -35,7 +35,9 @@ struct RenderSettings {
     LightChoice lightChoice = LightChoice::Auto; ///< Path
     bool hasAlpha = false; ///< Whitted, Path: the background is transparent, and still lights the scene
     bool isClearGlassTransparent = false; ///< with it: so is the background through clear glass
-    double exposureStops = 0.0;           ///< radiance is multiplied by 2^exposureStops before the tone curve
+    /// Normal, Depth, Albedo: of what mirrors and clear glass show, as means of the image's own samples.
+    bool areLayersThrough = false;
+    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
@@ -46,6 +48,11 @@ struct RenderSettings {
     if (!settings.hasAlpha || !rowOf(settings.integrator).showsLight)
         return layout::alphaOfNothing;
     return settings.isClearGlassTransparent ? layout::alphaThroughGlass : layout::alphaOfBackground;
+}
+
+/// Whether a view of an image with these settings looks through mirrors and glass.
+[[nodiscard]] inline bool looksThrough(Integrator view, const RenderSettings &settings) {
+    return settings.areLayersThrough && rowOf(view).canLookThrough;
 }
 
 /// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.

@@ -70,6 +70,7 @@ inline constexpr std::string_view tracingGroup = "Tracing";
 inline constexpr std::array ambientOcclusionOnly{Integrator::AmbientOcclusion};
 inline constexpr std::array pathOnly{Integrator::Path};
 inline constexpr auto ofLight = integratorsThat<&IntegratorRow::showsLight>();
+inline constexpr auto thatLookThrough = integratorsThat<&IntegratorRow::canLookThrough>();
 inline constexpr auto severalBounces = integratorsThat<&IntegratorRow::followsPaths>();
 
 /// In the order of reports and documents.
@@ -122,6 +123,14 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      "with alpha: the background is transparent through glass, too, of a roughness up to 0.1; otherwise "
      "glass shows it",
      ofLight},
+    {"layersThrough", "layers-through", FlagSetting{&RenderSettings::areLayersThrough}, Changes::Samples,
+     imageGroup,
+     "layers and pictures of normals, depths and albedos look through mirrors, and through metal and glass "
+     "of a "
+     "roughness up to 0.1, as denoisers want them: means over the image's samples of what paths up to "
+     "maxDepth "
+     "meet first beyond",
+     thatLookThrough},
     {"exposure", "exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
      "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},

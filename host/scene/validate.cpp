@@ -341,11 +341,13 @@ void validateSettings(const RenderSettings &settings, const Scene &scene, const 
                        "with the sampler sobol");
     if (settings.isClearGlassTransparent && !settings.hasAlpha)
         checked.refuse("alphaThroughGlass", "true without alpha", "with alpha");
-    if (settings.integrator == Integrator::Path)
+    if (settings.integrator == Integrator::Path || settings.areLayersThrough)
         Checked(sourceName, "scene")
             .atMost(limits::mediumCount,
                     static_cast<std::size_t>(std::ranges::count_if(scene.materials, isGlass)),
-                    "materials that light passes for the integrator path");
+                    settings.integrator == Integrator::Path
+                        ? "materials that light passes for the integrator path"
+                        : "materials that light passes for layersThrough");
 }
 
 void validateScene(const Scene &scene, const std::string &sourceName) {

@@ -26,9 +26,11 @@ bool isThinGlass(MaterialRecord material) {
            isThin(material);
 }
 
+const float clearAlpha = 0.0100001; // of a roughness of 0.1, whose square is rounded up
+
 // Whether the material is seen through like a window's glass: that of a roughness up to 0.1.
 bool isClearGlass(MaterialRecord material) {
-    return (isGlass(material) || isThinGlass(material)) && material.alpha <= 0.01;
+    return (isGlass(material) || isThinGlass(material)) && material.alpha <= clearAlpha;
 }
 
 // Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the
@@ -58,6 +60,23 @@ bool isMixture(MaterialRecord material) {
            ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf);
 }
 
+// Whether views that look through go on at the material, to what it mirrors or lets pass: mirrors, metals and glass of a
+// roughness up to 0.1, and mixtures with three quarters of these, the share that Cycles asks for
+// (kernel/film/denoising_passes.h).
+bool isLookedThrough(MaterialRecord material) {
+    if (isSpecular(material))
+        return true;
+    if (kindOf(material) == materialDiffuse || isUnlit(material) || material.alpha > clearAlpha)
+        return false;
+    float glass = (1.0 - material.metallic) * material.transmission;
+    return !isMixture(material) || material.metallic + glass >= 0.75;
+}
+
+// Whether a material that is looked through is a metal rather than glass.
+bool isLookedAtAsMetal(MaterialRecord material) {
+    return material.metallic > (1.0 - material.metallic) * material.transmission;
+}
+
 // The Whitted integrator shows mixtures as diffuse, and rough metals as mirrors.
 bool isDiffuseForWhitted(MaterialRecord material) {
     return kindOf(material) == materialDiffuse || isMixture(material);
@@ -82,6 +101,13 @@ vec3 mirrorReflectance(MaterialRecord material, float cosine) {
     if ((scattering & scattersAtConductors) == 0u || kindOf(material) != materialConductor)
         return vec3(1.0);
     return conductorReflectance(lesser(cosine, 1.0), material.conductorIndex, material.conductorExtinction);
+}
+
+// The colour that light has after passing the surface of a mixture's glass; that of other glass is colourless.
+vec3 glassTint(MaterialRecord material) {
+    if (!isMixture(material))
+        return vec3(1.0);
+    return kindOf(material) == materialGltf ? material.albedo : principledTint(material);
 }
 
 // ---- BSDFs

@@ -5,6 +5,11 @@
 // plastic. Light samples and scattered rays then see only that component, which is unbiased, and its pdf is never mixed
 // with those of others.
 
+// The tint of light that passes a surface of the glass: what goes in and out has the base colour.
+vec3 principledTint(MaterialRecord material) {
+    return vec3(squareRoot(material.albedo.x), squareRoot(material.albedo.y), squareRoot(material.albedo.z));
+}
+
 Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float choice) {
     float left = choice;
     if (material.clearcoat > 0.0 && !isBehind) {
@@ -18,7 +23,7 @@ Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float cho
     float dielectric = 1.0 - material.metallic;
     float glass = isBehind && material.transmission > 0.0 ? 1.0 : dielectric * material.transmission;
     if ((scattering & scattersAtRoughGlass) != 0u && left < glass) {
-        bsdf.tint = vec3(squareRoot(material.albedo.x), squareRoot(material.albedo.y), squareRoot(material.albedo.z));
+        bsdf.tint = principledTint(material);
         return makeGlass(bsdf);
     }
     float opaque = 1.0 - glass;

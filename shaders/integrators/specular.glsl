@@ -50,8 +50,8 @@ Crossing crossingOf(uint slot, uint materialIndex, bool isEntering) {
 }
 
 // Smooth glass: chooses reflection or refraction with the probability of its share. Inside glass of higher priority the
-// path passes straight through.
-void scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
+// path passes straight through. Returns whether light is refracted.
+bool scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
     vec3 direction = path[slot].rayDirection;
     bool isEntering = dotProduct(direction, surface.geometricNormal) < 0.0;
     Crossing crossing = crossingOf(slot, materialIndex, isEntering);
@@ -59,7 +59,7 @@ void scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
         path[slot].mediaInside = crossing.beyond;
         path[slot].scatterPdf = 0.0; // light samples do not pass glass
         continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
-        return;
+        return false;
     }
     vec3 geometricFacing = isEntering ? surface.geometricNormal : -surface.geometricNormal;
     vec3 shadingFacing = isEntering ? surface.normal : -surface.normal;
@@ -70,7 +70,7 @@ void scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
     if (unitFloat(vertexBits(slot, pairChoice).x) < glass.reflectance) {
         path[slot].mediaInside = crossing.before;
         reflectRay(slot, surface, facing);
-        return;
+        return false;
     }
     path[slot].mediaInside = crossing.beyond;
     if (carriesRadiance) {
@@ -80,6 +80,7 @@ void scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
     path[slot].scatterPdf = 0.0;
     rayCounts[slot].w += 1u;
     continueRay(slot, offsetRayOrigin(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
+    return true;
 }
 
 // Whether the surface is a mirror or clear glass. Rough glass with the same index on both sides is clear.

@@ -8,25 +8,53 @@
 // matt surface in its place, the sum of light samples that are blocked over the sum of all. A sample is 1, the light
 // that an empty scene would send, and what of it is blocked. Glass dims it by `shadowThroughGlass`; other shadow
 // catchers do not: their shadows are in the picture that they stand for.
+//
+// Normals, depths and albedos may look through mirrors and clear glass (isLookedThrough), as auxiliary layers of
+// denoisers do: they are those of the first other surface of the path that the path integrator would follow, or of the
+// last one that maxDepth allows. The albedo is multiplied by the colours of mirrors and glass on the way; the depth is
+// the length of the path; normals are turned towards the ray. Paths that leave the scene show 0.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/kernels/begin_kernel.glsl"
 
 layout(constant_id = constantView) const uint view = viewNormal;
+layout(constant_id = constantLooksThrough) const bool looksThrough = false;
 
 const bool lightPassesGlass = false;
 const bool raysHaveTargets = false;
 const bool hasBounces = view == viewShadow; // a ray to the light
+const bool hasSegments = view == viewShadow || looksThrough;
+const bool carriesRadiance = false;
 
 #include "shaders/kernels/stages.glsl"
+#include "shaders/integrators/specular.glsl"
 
-void beginSample(uint slot) { sendPrimaryRay(slot); }
+// Textures that say whether a material is looked through, and what it reflects.
+const uint texturesOfClearness = texturesRoughness | texturesMetallic | texturesTransmission |
+                                 1u << slotDielectricWeight | 1u << slotDielectricColour |
+                                 (view == viewAlbedo ? texturesBaseColour : 0u);
+
+void beginSample(uint slot) {
+    if (looksThrough)
+        beginInMedia(slot);
+    else
+        sendPrimaryRay(slot);
+}
 
 void show(uint slot, vec3 value) {
     if (!showsCost)
         path[slot].sampleRadiance = value;
     traceEvent(slot, traceRadiance, 0u, value);
+}
+
+// The surface as it is seen from the ray's side.
+Surface facing(uint slot, Surface surface) {
+    if (dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0) {
+        surface.normal = -surface.normal;
+        surface.geometricNormal = -surface.geometricNormal;
+    }
+    return surface;
 }
 
 // Sends a ray on towards the light, `left` away.
@@ -38,15 +66,9 @@ void goToLight(uint slot, Surface surface, float left) {
 
 // On a shadow catcher: aims at a light.
 void catchShadow(uint slot, Surface surface) {
-    if (dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0) {
-        surface.normal = -surface.normal;
-        surface.geometricNormal = -surface.geometricNormal;
-    }
-    uvec2 pixel = imagePixel[slot];
-    uvec2 choiceBits = sampleBits(pairKeys(pixel, frame.seed, vertexPair(1u, pairChoice)), path[slot].sampleIndex);
-    uvec2 lightBits = sampleBits(pairKeys(pixel, frame.seed, vertexPair(1u, pairLight)), path[slot].sampleIndex);
-    EmitterChoice choice = chooseEmitter(LitPoint(surface.position, surface.normal, false), choiceBits.x);
-    LightSample light = sampleEmitter(choice, surface.position, lightBits);
+    LitPoint point = LitPoint(surface.position, surface.normal, false);
+    EmitterChoice choice = chooseEmitter(point, vertexBits(slot, pairChoice).x);
+    LightSample light = sampleEmitter(choice, surface.position, vertexBits(slot, pairLight));
     float cosine = dotProduct(surface.normal, light.direction);
     bool isLit = cosine > 0.0 && dotProduct(surface.geometricNormal, light.direction) > 0.0;
     float unblocked = isLit ? withoutTiny(luminance(light.radiance) * cosine) : 0.0;
@@ -86,6 +108,55 @@ void passToLight(uint slot) {
     goToLight(slot, surface, left - path[slot].rayLength);
 }
 
+// Thin glass: chooses reflection or passes straight through.
+void scatterThinGlass(uint slot, Surface surface, MaterialRecord material) {
+    vec3 direction = path[slot].rayDirection;
+    vec3 reflectance = schlickReflectance(abs(dotProduct(direction, surface.normal)), dielectricReflectance(material),
+                                          material.dielectricWeight);
+    if (unitFloat(vertexBits(slot, pairChoice).x) < largestComponent(reflectance)) {
+        reflectRay(slot, surface, surface.normal);
+        return;
+    }
+    weaken(slot, glassTint(material));
+    continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
+}
+
+// Sends the ray on, and returns true, if the surface is looked through.
+bool lookThrough(uint slot, Surface surface, uint materialIndex) {
+    if (path[slot].rayDepth >= frame.maxDepth)
+        return false;
+    stepsTaken += uint(bitCount(texturesOfClearness & texturing));
+    MaterialRecord material =
+        hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesOfClearness, surface.position);
+    vec3 direction = path[slot].rayDirection;
+    bool isBehind = dotProduct(direction, surface.geometricNormal) > 0.0;
+    bool isClear = isSpecularHere(slot, material, materialIndex, !isBehind) || isLookedThrough(material);
+    if (!isClear || (isBehind && isMixture(material) && isBlackBehind(material)))
+        return false;
+    if (view == viewDepth)
+        show(slot, path[slot].sampleRadiance + vec3(path[slot].rayLength));
+    bool isMetal = isLookedAtAsMetal(material);
+    if (hasDielectric && isGlass(material) && !isMetal) {
+        if (scatterSmoothDielectric(slot, surface, materialIndex))
+            weaken(slot, glassTint(material));
+    } else if (isThinGlass(material) && !isMetal) {
+        scatterThinGlass(slot, surface, material);
+    } else {
+        float cosine = abs(dotProduct(direction, surface.normal));
+        weaken(slot, isMixture(material) ? schlickReflectance(cosine, material.albedo, 1.0)
+                                         : mirrorReflectance(material, cosine));
+        reflectRay(slot, surface, surface.normal);
+    }
+    return true;
+}
+
+// What a path that has left the scene shows: a normal has no length.
+vec3 ofNothing() {
+    if (looksThrough && view == viewNormal)
+        return normalColour(vec3(0.0));
+    return vec3(view == viewOcclusion ? 1.0 : 0.0);
+}
+
 // Stage: the nearest hit is known.
 void shadeHit(uint slot) {
     traceNearestHit(slot);
@@ -95,17 +166,24 @@ void shadeHit(uint slot) {
         return;
     }
     if (path[slot].hitPrimitive == noPrimitive) {
-        show(slot, vec3(view == viewOcclusion ? 1.0 : 0.0));
+        show(slot, ofNothing());
         return;
     }
     uint materialIndex;
     Surface surface = surfaceHit(slot, materialIndex);
     traceEvent(slot, traceSurfacePosition, 0u, surface.position);
     traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
+    if (looksThrough) {
+        if (hasDielectric)
+            weaken(slot, transmittance(slot, path[slot].rayLength));
+        if (lookThrough(slot, surface, materialIndex))
+            return;
+        surface = facing(slot, surface);
+    }
     if (view == viewNormal)
         show(slot, normalColour(surface.normal));
     if (view == viewDepth)
-        show(slot, vec3(path[slot].rayLength));
+        show(slot, path[slot].sampleRadiance + vec3(path[slot].rayLength));
     if (view == viewId)
         show(slot, idColour(path[slot].hitPrimitive));
     if (view == viewCoordinates) {
@@ -115,20 +193,15 @@ void shadeHit(uint slot) {
     if (view == viewAlbedo) {
         MaterialRecord material =
             hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
-        show(slot, isColourless(material) ? vec3(1.0) : material.albedo);
+        vec3 colour = isColourless(material) ? vec3(1.0) : material.albedo;
+        show(slot, looksThrough ? withoutTiny(path[slot].throughput * colour) : colour);
     }
     if (view == viewShadow && catchesShadows(fetchMaterial(materialIndex)))
-        catchShadow(slot, surface);
+        catchShadow(slot, facing(slot, surface));
     if (view >= viewObject)
         show(slot, vec3(floatOf(numberOf(view, path[slot].hitPrimitive, materialIndex))));
-    if (view == viewOcclusion) {
-        bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
-        if (isBehind) {
-            surface.normal = -surface.normal;
-            surface.geometricNormal = -surface.geometricNormal;
-        }
-        setSurface(slot, surface);
-    }
+    if (view == viewOcclusion)
+        setSurface(slot, facing(slot, surface));
 }
 
 // Stage: send a ray to a random point of the sky.
@@ -152,7 +225,7 @@ void addLight(uint slot) {
 void advancePaths() {
     do
         traceRays();
-    while (view == viewShadow && !regeneratesPaths && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
+    while (hasSegments && !regeneratesPaths && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
     if (view == viewOcclusion)
         lightSurfaces();
 }

@@ -787,7 +787,8 @@ const uint constantHasNormals = 31u;       // of corners of triangles
 const uint constantAlpha = 32u;            // which background is transparent: alpha...
 const uint constantPlaceCount = 33u;
 const uint constantTallies = 34u; // the film counts samples by their numbers
-const uint constantCount = 35u;
+const uint constantLooksThrough = 35u; // views: through mirrors and glass
+const uint constantCount = 36u;
 
 const uint broadcastLanes = 16u;
 

@@ -5,7 +5,7 @@
 // |-----------|----------------------------------|------------------------------------------------------------------|
 // | 0         | pixelPair                        | every sample: its position in the pixel                          |
 // | 1         | occlusionPair                    | view `ao`: the direction to the sky                              |
-// | 1 to 96   | vertexPair(depth, pair...)       | path: three at each vertex; view `shadow`: at a catcher          |
+// | 1 to 96   | vertexPair(depth, pair...)       | path: three at each vertex; views: at a shadow catcher, at glass |
 // | 97 to 128 | lobePair(depth)                  | path: a lobe, at a vertex that scatters                         |
 // | 1024      | lensPair                         | cameras with a lens: the point on the lens                       |
 // | 24295     | alphaTestPair                    | alpha tests: beside the primitive and the ray, a key of its own  |

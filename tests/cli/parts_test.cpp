@@ -128,6 +128,33 @@ TEST_F(Parts, WithMattesGoOn) {
     EXPECT_TRUE(areSame(channelsOf(folder / "whole.exr"), channelsOf(folder / "merged.exr")));
 }
 
+// Their samples are as many as those of the picture, and their depths are no planes'.
+TEST_F(Parts, MakeLayersThatLookThroughOfOneRender) {
+    const std::string layers = " --layers albedo,normal,depth,id --layers-through --integrator path";
+    ASSERT_EQ(run("render spheres -o whole.exr --device cpu" + smallPicture + layers).exitCode, 0);
+    ASSERT_EQ(
+        run("render spheres -o plain.exr --device cpu --integrator path --layers albedo,normal,depth,id" +
+            smallPicture)
+            .exitCode,
+        0);
+    const auto part = [&](int index, const std::string &options) {
+        const std::string number = std::to_string(index);
+        return run("render spheres" + smallPicture + layers + options + " --part " + number + "/2 -o p" +
+                   number + ".part");
+    };
+    ASSERT_EQ(part(1, " --device cpu --time-limit 1e-6").exitCode, 0);
+    const Outcome unfinished = run("merge p1.part -o merged.exr");
+    EXPECT_TRUE(contains(unfinished.errors, "'p1.part' is not finished")) << unfinished;
+    ASSERT_EQ(part(1, " --device cpu").exitCode, 0);
+    ASSERT_EQ(part(2, " --device " + softwareDevice()).exitCode, 0);
+    ASSERT_EQ(run("merge p1.part p2.part -o merged.exr").exitCode, 0);
+    EXPECT_TRUE(areSame(channelsOf(folder / "whole.exr"), channelsOf(folder / "merged.exr")));
+    EXPECT_FALSE(areSame(channelsOf(folder / "whole.exr"), channelsOf(folder / "plain.exr")));
+    const Outcome foreign = run("render spheres" + smallPicture +
+                                " --layers albedo,normal,depth,id --integrator path --part 1/2 -o p1.part");
+    EXPECT_TRUE(contains(foreign.errors, "layersThrough")) << foreign;
+}
+
 // What a part says of its layers is as trustworthy as its maker.
 TEST_F(Parts, WithNumbersThatHaveNoNameAreRefused) {
     ASSERT_EQ(renderPart(1, 1, " --device cpu --layers crypto-object").exitCode, 0);

@@ -385,7 +385,8 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"sampler", "centre"},     {"clamp", 6.0},
                                 {"exposure", 2.0},         {"occlusionDistance", 1e15},
                                 {"filter", "box"},         {"lightChoice", "auto"},
-                                {"alpha", false},          {"alphaThroughGlass", false}};
+                                {"alpha", false},          {"alphaThroughGlass", false},
+                                {"layersThrough", false}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden =
         renderReport("own.json --width 4 --spp 2 --integrator path --clamp 0.5" + onCpu);
@@ -410,7 +411,8 @@ TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
                                 {"clamp", 0.0},
                                 {"lightChoice", "auto"},
                                 {"alpha", false},
-                                {"alphaThroughGlass", false}};
+                                {"alphaThroughGlass", false},
+                                {"layersThrough", false}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
 }

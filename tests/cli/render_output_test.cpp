@@ -2,6 +2,7 @@
 #include "host/image/exr.h"
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
+#include "tests/cli/exr_channels.h"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,40 @@ TEST_F(RenderOutput, TheLayerOfDepthsIsPlanar) {
     const Image distances = readExr(InputFile(folder / "b.exr"), "depth");
     for (const glm::vec3 &pixel : distances.pixels())
         EXPECT_NEAR(pixel.x, 4.0f, 1e-4f);
+}
+
+// Twice the distance of a mirror, and the colour of what it shows: means of all samples, the lens included.
+TEST_F(RenderOutput, LayersLookThroughMirrors) {
+    store("mirror.json", R"({"camera": {"position": [0, 0, 0], "target": [0, 0, -1], "horizontalFov": 0.1},
+        "materials": {"mirror": {"type": "mirror"}, "wall": {"type": "diffuse", "albedo": [0.2, 0.5, 0.7]}},
+        "shapes": [{"type": "quad", "material": "mirror", "transform": [{"scale": 8}, {"translate": [0, 0, -3]}]},
+                   {"type": "quad", "material": "wall",
+                    "transform": [{"scale": 8}, {"rotateDegrees": [0, 180, 0]}, {"translate": [0, 0, 2]}]}]})");
+    const std::string small = " --spp 4 --width 8 --height 6 --device cpu --layers albedo,normal,depth";
+    const auto pixelsOf = [&](const std::string &file, const std::string &layer) {
+        return std::vector<glm::vec3>(readExr(InputFile(folder / file), layer).pixels());
+    };
+    for (const std::string integrator : {"path", "whitted"}) {
+        ASSERT_EQ(
+            run("render mirror.json -o a.exr --layers-through --integrator " + integrator + small).exitCode,
+            0);
+        for (const glm::vec3 &pixel : pixelsOf("a.exr", "albedo"))
+            EXPECT_EQ(pixel, glm::vec3(0.2f, 0.5f, 0.7f));
+        for (const glm::vec3 &pixel : pixelsOf("a.exr", "depth"))
+            EXPECT_NEAR(pixel.x, 8.0f, 1e-5f);
+        for (const float z : channelsOf(folder / "a.exr").at("normal.Z"))
+            EXPECT_NEAR(z, -1.0f, 1e-6f) << "towards the mirror";
+    }
+    ASSERT_EQ(run("render mirror.json -o b.exr --layers-through --max-depth 1" + small).exitCode, 0);
+    for (const glm::vec3 &pixel : pixelsOf("b.exr", "albedo"))
+        EXPECT_EQ(pixel, glm::vec3(1.0f)) << "of the mirror, where paths end";
+    expectFailure("render mirror.json -o a.exr --layers-through --layers id", 2,
+                  {"--layers-through has no effect", "normal, depth, albedo"});
+    ASSERT_EQ(run("render mirror.json -o c.pfm --integrator albedo --layers-through --max-depth 2 --spp 1 "
+                  "--width 2 --height 2 --device cpu")
+                  .exitCode,
+              0);
+    expectFailure("render mirror.json -o c.pfm --integrator albedo --max-depth 2", 2, {"--max-depth"});
 }
 
 TEST_F(RenderOutput, LayersThatCannotBeAreRefused) {

@@ -378,6 +378,12 @@ void addSettings(Rows &rows) {
     alpha("alphaOfNothing", layout::alphaOfNothing, false, false);
     alpha("alphaOfBackground", layout::alphaOfBackground, true, false);
     alpha("alphaThroughGlass", layout::alphaThroughGlass, true, true);
+    TestScene mirror = beforeAWall(MaterialKind::Mirror);
+    mirror.settings.integrator = Integrator::Albedo;
+    mirror.settings.areLayersThrough = true;
+    const RenderSettings settings = mirror.settings;
+    rows.value("constantLooksThrough", 1, std::move(mirror),
+               [settings](const PackedScene &) { return looksThrough(settings.integrator, settings); });
 }
 
 } // namespace
