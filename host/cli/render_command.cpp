@@ -179,6 +179,9 @@ void requireSequenceOptions(const RenderRequest &request, const SequenceOptions 
     if (options.framesPerSecond && options.turntable)
         throw Error(ErrorKind::Usage, "--fps: found --turntable, whose frames have no time");
     const ImageFormat format = imageFormatOf(request.output);
+    if (options.hasMotion && format != ImageFormat::Exr)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--motion is for .exr files: --output is {}", request.output));
     if (request.isResuming && format != ImageFormat::Exr && format != ImageFormat::Png)
         throw Error(
             ErrorKind::Usage,
@@ -366,6 +369,10 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
         request->words = context.words;
         if (sequence->framesPerSecond && !sequence->areGiven())
             throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
+        if (sequence->hasMotion && !sequence->areGiven())
+            throw Error(ErrorKind::Usage,
+                        "--motion: found one picture, which has no frame before it or after; "
+                        "allowed: with --frames or --turntable");
         TerminalObserver observer(*isQuiet);
         context.exitCode = runAny(*request, *sequence, *views, context.commandLine, observer);
     });

@@ -203,6 +203,11 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
               "glTF: frames in a second of its animations")
         ->default_str("24")
         ->group(group);
+    command
+        .add_flag(
+            "--motion", options.hasMotion,
+            "a layer of each .exr: vector, how far what a pixel shows moves to the frames before and after")
+        ->group(group);
 }
 
 } // namespace hyalite::core

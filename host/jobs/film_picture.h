@@ -4,7 +4,10 @@
 #include "host/image/image_file.h"
 #include "host/jobs/layers.h"
 
+#include <glm/vec4.hpp>
+
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,7 @@ struct FilmPicture {
     RenderSettings settings{};
     FileOptions options{};
     std::optional<Projection> projection{}; ///< of the camera
+    std::span<const glm::vec4> motion{}; ///< of the film's pixels: their motion vectors; empty: no such layer
 };
 
 /// Writes it with its views and the layers of the film; the caller commits the file. Returns and throws as writeImage()

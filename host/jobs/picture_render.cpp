@@ -62,6 +62,8 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
     if (options.exr != ExrOptions()) // those of older frames stay what they were
         whole += fmt::format("half: {}\ncompression: {}\n", options.exr.isHalf,
                              static_cast<int>(options.exr.compression));
+    if (request.hasMotion)
+        whole += "motion vectors\n";
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
 
@@ -247,6 +249,7 @@ class PictureRender {
         picture.settings = loaded.settings;
         picture.options = request_.file.options();
         picture.projection = projectionOf(loaded.scene);
+        picture.motion = motion_;
         return writeFilmPicture(file, formatOf(request_), picture);
     }
 
@@ -281,6 +284,8 @@ class PictureRender {
         if (request_.frame && !report_.finished.isComplete)
             files_.image.reset(); // scripts take an existing frame for finished
         if (files_.image) {
+            if (request_.hasMotion)
+                motion_ = motionVectors(session_.scene(), session_.loadNeighbours());
             const std::vector<std::string> losses = writePicture(*files_.image, film);
             files_.image->commit();
             for (const std::string &loss : losses)
@@ -307,6 +312,7 @@ class PictureRender {
     RenderReport report_;
     std::span<const Crop> squares_;
     std::vector<ViewFilm> layers_; ///< the periodic files have them
+    std::vector<glm::vec4> motion_;
 };
 
 } // namespace

@@ -4,6 +4,9 @@
 #include "host/image/picture.h"
 #include "host/scene/scene.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <optional>
 
 namespace hyalite::core {
@@ -14,5 +17,9 @@ namespace hyalite::core {
 /// The z of NDC, which has no meaning there, makes the matrix invertible: 1 - 1/z of a perspective camera, whose depth
 /// is z, and z of an orthographic one.
 [[nodiscard]] std::optional<Projection> projectionOf(const Scene &scene);
+
+/// The place of a point of the scene in the camera's picture, in pixels from the top left; of a lens that of its centre.
+/// None behind a perspective camera.
+[[nodiscard]] std::optional<glm::dvec2> pixelOf(const Camera &camera, const glm::dvec3 &point);
 
 } // namespace hyalite::core

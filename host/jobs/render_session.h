@@ -6,6 +6,7 @@
 #include "host/farm/rank_backend.h"
 #include "host/film/partition.h"
 #include "host/image/file_options.h"
+#include "host/jobs/motion.h"
 #include "host/scene/integrators.h"
 
 #include <future>
@@ -34,6 +35,7 @@ struct RenderRequest {
     /// A frame of a sequence: its picture is written only when it is finished, and says which one it is. A render that
     /// is resuming leaves a picture alone that it would make once more.
     std::optional<int> frame;
+    bool hasMotion = false;               ///< of a frame: its picture has the layer of motion vectors
     std::string view{};                   ///< one of several: its picture says which
     std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
@@ -60,6 +62,8 @@ class RenderSession {
     [[nodiscard]] PreparedScene &scene() { return *scene_; }
     [[nodiscard]] const PreparedScene &scene() const { return *scene_; }
     [[nodiscard]] Backend &backend() const { return *opened_.backend; }
+    /// Loads the frames beside that of the scene, where a picture has motion vectors.
+    std::function<NeighbourFrames()> loadNeighbours{};
     /// Renderers that are left out, each with the reason.
     [[nodiscard]] const std::vector<std::string> &notes() const { return opened_.notes; }
 

@@ -69,7 +69,8 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
 }
 
 Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
-    : request_(std::move(request)), turntable_(options.turntable), times_(timesOf(options)) {
+    : request_(std::move(request)), turntable_(options.turntable), hasMotion_(options.hasMotion),
+      times_(timesOf(options)) {
     const Part part = request_.part.value_or(Part{});
     for (int frame = times_.firstFrame; frame <= times_.lastFrame; ++frame)
         if (static_cast<std::uint32_t>(frame - times_.firstFrame) % part.count == part.index - 1)
@@ -93,6 +94,7 @@ RenderRequest Sequence::requestOf(int frame) const {
     RenderRequest request = request_;
     request.part.reset();
     request.frame = frame;
+    request.hasMotion = hasMotion_;
     request.output = nameOfFrame(request.output, frame, "output");
     if (!request.report.empty())
         request.report = nameOfFrame(request.report, frame, "report");
@@ -103,8 +105,12 @@ RenderRequest Sequence::requestOf(int frame) const {
 
 void Sequence::prepare(RenderSession &session) {
     RenderRequest request = request_;
-    if (!turntable_)
+    if (!turntable_) {
         request.scene.load.sequence = times_;
+        const int beside = hasMotion_ ? 1 : 0;
+        request.scene.load.sequence->firstFrame = std::max(times_.firstFrame - beside, 0);
+        request.scene.load.sequence->lastFrame += beside;
+    }
     session.prepare(request);
     PreparedScene &scene = session.scene();
     const Camera &camera = scene.loaded.scene.camera;
@@ -129,11 +135,42 @@ void Sequence::prepare(RenderSession &session) {
     validateCameraPath(path_, camera, scene.loaded.file.string());
 }
 
+SceneOptions Sequence::optionsOf(int frame) const {
+    SceneOptions options = request_.scene;
+    options.load.timeSeconds = times_.timeOf(std::max(frame, 0)); // nothing moves before
+    return options;
+}
+
+Camera Sequence::cameraOf(int frame, const Camera &camera) const {
+    const int count = static_cast<int>(path_.size());
+    const int index = turntable_ ? (frame + count) % count : std::clamp(frame, 0, count - 1);
+    return posed(camera, path_[static_cast<std::size_t>(index)]);
+}
+
+const MotionFrame &Sequence::motionFrameOf(int frame) {
+    const auto [entry, isNew] = loaded_.try_emplace(frame);
+    if (isNew) {
+        PreparedScene scene = prepareScene(optionsOf(frame), Source::Dropped, nobody());
+        entry->second = {framing_.value_or(scene.loaded.scene.camera),
+                         std::make_shared<FrameSurfaces>(std::move(scene.packed))};
+    }
+    return entry->second;
+}
+
+NeighbourFrames Sequence::neighboursOf(int frame, const Camera &camera) {
+    if (!movesByTime_)
+        return {{cameraOf(frame - 1, camera)}, {cameraOf(frame + 1, camera)}};
+    std::erase_if(loaded_, [frame](const auto &entry) { return entry.first != frame - 1; });
+    return {motionFrameOf(frame - 1), motionFrameOf(frame + 1)};
+}
+
 void Sequence::moveTo(int frame, RenderSession &session) {
+    if (hasMotion_)
+        session.loadNeighbours = [this, frame, &session] {
+            return neighboursOf(frame, session.scene().loaded.scene.camera);
+        };
     if (movesByTime_) {
-        SceneOptions options = request_.scene;
-        options.load.timeSeconds = times_.timeOf(frame);
-        session.replaceScene(options);
+        session.replaceScene(optionsOf(frame));
         PreparedScene &scene = session.scene();
         if (scene.loaded.autoFramed) { // else the view would jump with what it frames
             if (!framing_)
@@ -145,9 +182,7 @@ void Sequence::moveTo(int frame, RenderSession &session) {
     }
     PreparedScene &scene = session.scene();
     Camera &camera = scene.loaded.scene.camera;
-    const int count = static_cast<int>(path_.size());
-    const int index = turntable_ ? frame % count : std::min(frame, count - 1);
-    camera = posed(camera, path_[static_cast<std::size_t>(index)]);
+    camera = cameraOf(frame, camera);
     packCamera(scene.loaded.scene, scene.packed);
 }
 

@@ -4,6 +4,7 @@
 #include "host/jobs/render_session.h"
 #include "host/scene/camera_path.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct SequenceOptions {
     std::optional<FrameRange> frames; ///< default: those of the turntable
     std::optional<int> turntable;     ///< frames of a full turn; empty: the scene says how its camera moves
     std::optional<double> framesPerSecond; ///< of animations; default: 24
+    bool hasMotion = false;                ///< pictures have the layer of motion vectors
 
     [[nodiscard]] bool areGiven() const { return frames || turntable; }
 };
@@ -49,13 +51,23 @@ class Sequence {
     void moveTo(int frame, RenderSession &session);
 
   private:
+    /// The scene in time, in this frame.
+    [[nodiscard]] SceneOptions optionsOf(int frame) const;
+    /// The camera on its path; before and after the path it stands still.
+    [[nodiscard]] Camera cameraOf(int frame, const Camera &camera) const;
+    /// Of a scene that moves by time, what motion vectors need of a frame, which is loaded once.
+    [[nodiscard]] const MotionFrame &motionFrameOf(int frame);
+    [[nodiscard]] NeighbourFrames neighboursOf(int frame, const Camera &camera);
+
     const RenderRequest request_;
     const std::optional<int> turntable_;
+    const bool hasMotion_;
     const SequenceTimes times_;
     std::vector<int> frames_;
     CameraPath path_;
     bool movesByTime_ = false;
     std::optional<Camera> framing_; ///< of a moving scene without a camera: that of the first frame
+    std::map<int, MotionFrame> loaded_;
 };
 
 } // namespace hyalite::core

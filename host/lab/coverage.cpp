@@ -103,13 +103,13 @@ Coverage measureCoverage(const PreparedScene &prepared) {
                                     static_cast<std::uint64_t>(crop.height())};
     std::map<std::size_t, CoveredPixels> byObject;
     std::map<std::uint32_t, CoveredPixels> byMaterial;
-    reference::visitFirstHits(prepared.packed, crop, [&](int y, std::span<const std::uint32_t> primitives) {
-        for (std::size_t i = 0; i < primitives.size(); ++i) {
-            if (primitives[i] == layout::noPrimitive) {
+    reference::visitFirstHits(prepared.packed, crop, [&](int y, std::span<const reference::FirstHit> hits) {
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (hits[i].primitive == layout::noPrimitive) {
                 ++coverage.backgroundCount;
                 continue;
             }
-            const auto [object, material] = objects.at(primitives[i]);
+            const auto [object, material] = objects.at(hits[i].primitive);
             cover(byObject, object, crop.x0 + static_cast<int>(i), y);
             cover(byMaterial, material, crop.x0 + static_cast<int>(i), y);
         }
