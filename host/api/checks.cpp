@@ -11,6 +11,7 @@
 #include "host/lab/measurement.h"
 #include "host/lab/scene_summary_json.h"
 #include "host/lab/verify_report.h"
+#include "host/packing/light_planes.h"
 #include "host/report/profile_json.h"
 
 #include <fmt/format.h>
@@ -110,7 +111,8 @@ Comparison compare(const Scene &scene, const Settings &settings, const std::stri
     return watched(observer, [&] {
         const core::PreparedScene prepared =
             core::prepareScene(sceneOptionsOf(scene, settings), core::Source::Dropped, observer);
-        core::requireFilmMemory(prepared.crop, 2);
+        core::requireFilmMemory(prepared.crop, 2,
+                                2 * core::lightPlanesOf(prepared.packed, prepared.loaded.settings).count());
         const core::ComparisonRun run =
             core::openComparison({.device = device, .against = against}, prepared, observer);
         core::ComparedRenders renders = core::renderBoth(run, prepared, observer);
@@ -120,8 +122,8 @@ Comparison compare(const Scene &scene, const Settings &settings, const std::stri
         nlohmann::ordered_json json = core::comparisonRunToJson(run, prepared, byProgram);
         json.update(core::comparisonToJson(renders.comparison, renders.imageB, renders.imageA));
         json["areRayCountsEqual"] = renders.a.rays == renders.b.rays;
-        const bool isEqual = renders.comparison.identical();
-        if (!isEqual)
+        const bool isEqual = renders.comparison.identical() && renders.differingLight == 0;
+        if (!renders.comparison.identical())
             json["divergence"] = divergenceOf(run, prepared, renders);
         json["passed"] = isEqual;
         Difference difference = differenceOf(renders.comparison, renders.imageB, renders.imageA);

@@ -25,18 +25,27 @@ core::ToneCurve toneOf(const std::string &name) {
     return core::chosenFrom(core::toneCurveNames, name, "tone");
 }
 
-/// Values of the layers of a view. Names are that of the view's row, or those of the layers of a Cryptomatte.
-void addLayers(const core::ViewFilm &view, Image::Content &content) {
-    const core::IntegratorRow &row = core::rowOf(view.view);
-    const auto width = static_cast<std::size_t>(view.film.crop.width()) * row.layerChannels.size();
-    const int height = view.film.crop.height();
-    for (const core::Layer &layer : core::layersOf(view)) {
-        std::vector<float> &values =
-            content.layerValues.emplace_back(width * static_cast<std::size_t>(height));
-        for (int y = 0; y < height; ++y)
-            layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
-        content.layers.push_back(
-            {row.tallies() ? layer.name : std::string(row.name), std::string(row.layerChannels), values});
+/// The values of a layer of the film, by this name.
+void addLayer(const core::Layer &layer, const std::string &name, std::string_view channels,
+              Image::Content &content) {
+    const core::Crop &crop = content.film.crop;
+    const auto width = static_cast<std::size_t>(crop.width()) * channels.size();
+    std::vector<float> &values =
+        content.layerValues.emplace_back(width * static_cast<std::size_t>(crop.height()));
+    for (int y = 0; y < crop.height(); ++y)
+        layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
+    content.layers.push_back({name, std::string(channels), values});
+}
+
+/// The layers of light, and those of the views. Names of these are that of the view's row, or those of the layers of a
+/// Cryptomatte.
+void addLayers(Image::Content &content) {
+    for (const core::Layer &layer : core::lightLayers(content.film))
+        addLayer(layer, layer.name, layer.channels, content);
+    for (const core::ViewFilm &view : content.views) {
+        const core::IntegratorRow &row = core::rowOf(view.view);
+        for (const core::Layer &layer : core::layersOf(view))
+            addLayer(layer, row.tallies() ? layer.name : std::string(row.name), row.layerChannels, content);
     }
 }
 
@@ -140,8 +149,7 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
                                core::samplesOfView(view.view, spp, content->settings.areLayersThrough))
                 .isComplete;
     content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
-    for (const core::ViewFilm &view : content->views)
-        addLayers(view, *content);
+    addLayers(*content);
     return Image(std::move(content));
 }
 

@@ -4,6 +4,7 @@
 #include "host/engine/time_limit.h"
 #include "host/gpu/render_config.h"
 #include "host/jobs/layers.h"
+#include "host/packing/light_planes.h"
 #include "host/scene/limits.h"
 
 #include <algorithm>
@@ -114,7 +115,8 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
         observer.rethrow();
         const core::PreparedScene &prepared = *content_->prepared;
         const std::vector<core::Integrator> &layers = prepared.views;
-        core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()));
+        core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()),
+                                core::lightPlanesOf(prepared.packed, prepared.loaded.settings).count());
         requireTimeLimit(options.timeLimitSeconds);
         const core::TimeLimit limit(options.timeLimitSeconds);
         std::vector<core::ViewFilm> views =

@@ -10,6 +10,7 @@
 #include "host/image/heat_map.h"
 #include "host/image/png.h"
 #include "host/import/assets.h"
+#include "host/packing/light_planes.h"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,9 @@ void printMetrics(const ComparedRenders &renders) {
         printResult("alpha        {} of {} differ, by at most {:.6g}; colours are compared over black\n",
                     comparison.alpha->differingPixelCount, pixels.pixelCount,
                     comparison.alpha->maxAbsoluteDifference);
+    if (!renders.a.film.light.empty())
+        printResult("light        {} of {} differ in the layers of light\n", renders.differingLight,
+                    pixels.pixelCount);
     printResult("PSNR         {:.2f} dB\n", pixels.psnrDecibels());
     printResult("HDR-FLIP     mean {:.6f}, max {:.6f}\n", comparison.flip.mean, comparison.flip.max);
 }
@@ -89,6 +93,8 @@ class CompareFiles {
         nlohmann::ordered_json json = origin;
         json.update(comparisonToJson(compared.comparison, compared.imageB, compared.imageA));
         json["outliers"] = compared.outliers.size();
+        if (!compared.a.film.light.empty())
+            json["differingLight"] = compared.differingLight;
         json["areRayCountsEqual"] = compared.a.rays == compared.b.rays;
         json.update(verdict.reasons);
         json["passed"] = verdict.isPassed;
@@ -125,11 +131,12 @@ Verdict judgeOutliers(const PreparedScene &scene, const Compared &compared, bool
 
 /// Comparison of renders that should be equal. If they are not, it reports the first step that differs.
 Verdict judgeBits(const ComparisonRun &run, const PreparedScene &scene, const Compared &compared,
-                  bool isWithinShare) {
+                  bool isWithinShare, bool isExact) {
     Verdict verdict;
-    verdict.isPassed = isWithinShare;
-    const bool areEqual = compared.comparison.identical();
-    if (!areEqual) {
+    // A tolerance is for what is seen.
+    verdict.isPassed = isWithinShare && (compared.differingLight == 0 || !isExact);
+    const bool areEqual = compared.comparison.identical() && compared.differingLight == 0;
+    if (!compared.comparison.identical()) {
         const glm::uvec2 pixel = imagePixel(scene.crop, worstPixel(compared));
         const std::optional<Divergence> divergence =
             findFirstDivergence(*run.first, *run.second, scene, pixel);
@@ -139,9 +146,9 @@ Verdict judgeBits(const ComparisonRun &run, const PreparedScene &scene, const Co
     if (compared.a.rays != compared.b.rays)
         printResult("rays         {} and {}: the counts differ\n", compared.a.rays.total(),
                     compared.b.rays.total());
-    printResult("{}\n", areEqual        ? "equal, bit for bit"
-                        : isWithinShare ? "equal within the tolerance"
-                                        : "NOT equal");
+    printResult("{}\n", areEqual           ? "equal, bit for bit"
+                        : verdict.isPassed ? "equal within the tolerance"
+                                           : "NOT equal");
     return verdict;
 }
 
@@ -165,7 +172,7 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
     requireDistinctFiles(outputs, scene.loaded.inputFiles);
     files.requireSize(scene.crop);
-    requireFilmMemory(scene.crop, 2);
+    requireFilmMemory(scene.crop, 2, 2 * lightPlanesOf(scene.packed, scene.loaded.settings).count());
     const ComparisonRun run = openComparison(options.comparison, scene, observer);
     if (!options.isQuiet)
         printRenderers(scene, run);
@@ -173,8 +180,9 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     printMetrics(compared);
     printOutliers(options, tolerance, compared);
     const bool isWithinShare = compared.outlierShare() <= options.maxOutliers;
-    const Verdict verdict = isAgainstOracle(options) ? judgeOutliers(scene, compared, isWithinShare)
-                                                     : judgeBits(run, scene, compared, isWithinShare);
+    const Verdict verdict = isAgainstOracle(options)
+                                ? judgeOutliers(scene, compared, isWithinShare)
+                                : judgeBits(run, scene, compared, isWithinShare, isDefault(tolerance));
     files.write(comparisonRunToJson(run, scene, commandLine), compared, verdict);
     return verdict.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }

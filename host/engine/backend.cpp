@@ -30,8 +30,11 @@ std::uint64_t filmBytes(const Crop &crop) {
 
 } // namespace
 
-void requireFilmMemory(const Crop &crop, unsigned filmCount) {
-    const std::uint64_t neededBytes = filmCount * filmBytes(crop);
+void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes) {
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
+    const std::uint64_t neededBytes =
+        filmCount * filmBytes(crop) + pixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float);
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");

@@ -79,7 +79,8 @@ struct RenderTask {
 /// The result, whose film is of no use in part: throws its failure, if there is one.
 [[nodiscard]] BackendResult unlessFailed(BackendResult result);
 
-/// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them.
-void requireFilmMemory(const Crop &crop, unsigned filmCount);
+/// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them, with
+/// this number of layers of light in all.
+void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes = 0);
 
 } // namespace hyalite::core

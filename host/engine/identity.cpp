@@ -1,6 +1,7 @@
 #include "host/engine/identity.h"
 
 #include "host/base/hash.h"
+#include "host/packing/light_planes.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
 
@@ -38,6 +39,8 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
         if (std::ranges::any_of(*layers, [](Integrator layer) { return rowOf(layer).isOfNumbers(); }))
             identity.emplace_back("names", hashText(scene.packed.namesHash()));
     }
+    if (settings.hasLightGroups)
+        identity.emplace_back("light groups", hashText(lightGroupsHash(scene.packed)));
     identity.emplace_back("scene and camera", hashText(scene.contentHash()));
     identity.emplace_back("precision", backend.precision());
     identity.emplace_back("kernels of this program", pixelSources());

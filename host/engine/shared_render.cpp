@@ -4,6 +4,7 @@
 #include "host/engine/spot_check.h"
 #include "host/engine/tile_queue.h"
 #include "host/film/partition.h"
+#include "host/packing/light_planes.h"
 
 #include <algorithm>
 #include <chrono>
@@ -142,7 +143,8 @@ class SharedRender {
         std::uint64_t samplesBefore = 0;
         {
             const std::scoped_lock lock(mutex_);
-            begun.pixels = pixelsIn(film_, std::span(&tile, 1));
+            static_cast<FilmRecords &>(begun) = recordsIn(film_, std::span(&tile, 1));
+            begun.lightPlanes = film_.lightPlanes;
             samplesBefore = samplesIn(begun);
             worker.currentSamples = static_cast<double>(samplesBefore);
             finishedSamples_ -= worker.currentSamples;
@@ -188,7 +190,7 @@ class SharedRender {
     void takeIn(Worker &worker, const Crop &tile, std::uint64_t samplesBefore, double seconds,
                 BackendResult result) {
         const std::uint64_t samplesNow = samplesIn(result.film);
-        setPixelsIn(film_, std::span(&tile, 1), result.film.pixels);
+        setRecordsIn(film_, std::span(&tile, 1), result.film);
         rays_ += result.rays;
         BackendResult &total = worker.total;
         total.work += result.work;
@@ -223,9 +225,7 @@ class SharedRender {
         changed_.notify_all();
         tellProgress();
         if (hooks_.snapshots != nullptr && hooks_.snapshots->isWanted())
-            hooks_.snapshots->take(
-                [this](std::span<layout::FilmPixel> copy) { std::ranges::copy(film_.pixels, copy.begin()); },
-                rays_);
+            hooks_.snapshots->take([this](Film &copy) { copy = film_; }, rays_);
     }
 
     void leaveOut(Worker &worker, const Crop &tile, const Error &why) {
@@ -271,6 +271,7 @@ class SharedRender {
 
 BackendResult renderShared(std::vector<Member> &members, const PackedScene &scene,
                            const RenderSettings &settings, Film begun, const RenderHooks &hooks) {
+    begun.keepLight(lightPlaneNames(scene, settings));
     return SharedRender(members, scene, settings, std::move(begun), hooks).render();
 }
 

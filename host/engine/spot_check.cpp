@@ -37,7 +37,7 @@ constexpr std::array<Sum, 5> sums{
 void requireEqualBits(const std::string &name, const Film &film, const std::string &judge, const Film &right,
                       std::uint32_t samples) {
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        if (haveEqualBits(film.pixels[i], right.pixels[i]))
+        if (haveEqualBits(film, right, i))
             continue;
         using Bits = std::array<std::uint32_t, 3>;
         const auto sum = std::ranges::find_if(sums, [&](const Sum &each) {

@@ -36,11 +36,11 @@ std::vector<Candidate> candidatesOf(const Merger &merged, std::uint64_t seed) {
 }
 
 std::optional<AuditFinding> compareTile(const Candidate &candidate, const Film &merged, const Film &again) {
-    const std::vector<layout::FilmPixel> there = pixelsIn(merged, std::span(&candidate.tile, 1));
-    const std::vector<layout::FilmPixel> here = pixelsIn(again, std::span(&candidate.tile, 1));
+    const FilmRecords there = recordsIn(merged, std::span(&candidate.tile, 1));
+    const FilmRecords here = recordsIn(again, std::span(&candidate.tile, 1));
     AuditFinding finding{candidate.part, candidate.tile, 0, 0, 0};
-    for (std::size_t i = 0; i < there.size(); ++i) {
-        if (haveEqualBits(there[i], here[i]))
+    for (std::size_t i = 0; i < there.pixels.size(); ++i) {
+        if (haveEqualBits(there, here, i))
             continue;
         if (finding.differingPixels++ == 0) {
             const auto width = static_cast<std::size_t>(candidate.tile.width());

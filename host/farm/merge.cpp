@@ -17,15 +17,6 @@ namespace {
 
 constexpr std::size_t shownBytes = 300;
 
-/// The first pixel that differs in any bit, as the index among those of the squares.
-std::optional<std::size_t> firstDifference(std::span<const layout::FilmPixel> a,
-                                           std::span<const layout::FilmPixel> b) {
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (!haveEqualBits(a[i], b[i]))
-            return i;
-    return std::nullopt;
-}
-
 struct Place {
     Crop square;
     int x;
@@ -52,10 +43,10 @@ std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origi
             origin.layers[layer].view, static_cast<int>(file.samplesPerPixel), origin.areLayersThrough));
     };
     std::size_t count = 0;
-    for (std::size_t i = 0; i < file.pixels.size(); ++i) {
-        bool isFinished = file.pixels[i].sampleCount == file.samplesPerPixel;
+    for (std::size_t i = 0; i < file.film.pixels.size(); ++i) {
+        bool isFinished = file.film.pixels[i].sampleCount == file.samplesPerPixel;
         for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
-            isFinished = isFinished && file.layers[layer][i].sampleCount == samplesOfLayer(layer);
+            isFinished = isFinished && file.layers[layer].pixels[i].sampleCount == samplesOfLayer(layer);
         count += !isFinished;
     }
     return count;
@@ -82,9 +73,13 @@ void Merger::add(const std::filesystem::path &path) {
                                                              file.layers.size(), origin.layers.size()));
             for (std::size_t i = 0; i < file.layers.size(); ++i)
                 if (rowOf(origin.layers[i].view).tallies() &&
-                    !haveNames(file.layers[i], origin.layers[i].names.size()))
+                    !haveNames(file.layers[i].pixels, origin.layers[i].names.size()))
                     throw Error(ErrorKind::BadInput, fmt::format("its layer {} has a number without a name",
                                                                  nameOf(origin.layers[i].view)));
+            if (origin.lightPlanes.size() != file.lightPlaneCount)
+                throw Error(ErrorKind::BadInput,
+                            fmt::format("it has {} layers of light and says that they are {}",
+                                        file.lightPlaneCount, origin.lightPlanes.size()));
             if (origin.wholeWidth < file.crop.x1 || origin.wholeHeight < file.crop.y1)
                 throw Error(ErrorKind::BadInput, "its crop is larger than its picture");
         } catch (const Error &error) {
@@ -105,7 +100,7 @@ void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
     const std::string path = file.path.string();
     if (const std::size_t unfinished = unfinishedPixels(file, origin); unfinished > 0) {
         faults_.unusable.push_back(fmt::format("'{}' is not finished: {} of its {} pixels lack samples", path,
-                                               unfinished, file.pixels.size()));
+                                               unfinished, file.film.pixels.size()));
         return;
     }
     if (!subject_)
@@ -121,21 +116,22 @@ void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
         return;
     }
     const std::span<const Crop> squares = partition_->squaresOf(file.part.index);
-    setPixelsIn(*film_, squares, file.pixels);
+    setRecordsIn(*film_, squares, file.film);
     for (std::size_t i = 0; i < layers_.size(); ++i)
-        setPixelsIn(layers_[i].film, squares, file.layers[i]);
+        setRecordsIn(layers_[i].film, squares, file.layers[i]);
     rays_ += file.rays;
     parts_.emplace(file.part.index, taken);
 }
 
 void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
-    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()));
+    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()), 2 * file.lightPlaneCount);
     subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}};
     firstPath_ = file.path.string();
     identity_ = file.identity;
     origin_ = origin;
     partition_.emplace(file.crop, file.part.count);
     film_.emplace(file.crop);
+    film_->keepLight(origin.lightPlanes);
     for (const PartLayer &layer : origin.layers)
         layers_.push_back({layer.view, Film(file.crop), layer.names});
 }
@@ -147,6 +143,9 @@ std::string Merger::foreignness(const CheckpointFile &file) const {
         return fmt::format("parts: {} there, {} here", subject_->part.count, file.part.count);
     if (file.samplesPerPixel != subject_->samplesPerPixel)
         return fmt::format("spp: {} there, {} here", subject_->samplesPerPixel, file.samplesPerPixel);
+    if (file.lightPlaneCount != film_->lightPlanes.size())
+        return fmt::format("layers of light: {} there, {} here", film_->lightPlanes.size(),
+                           file.lightPlaneCount);
     if (file.layers.size() != layers_.size())
         return fmt::format("layers: {} there, {} here", layers_.size(), file.layers.size());
     return file.crop == subject_->crop ? "" : "it has another crop";
@@ -154,18 +153,17 @@ std::string Merger::foreignness(const CheckpointFile &file) const {
 
 void Merger::compare(const CheckpointFile &file, const Taken &second) {
     const std::span<const Crop> squares = partition_->squaresOf(file.part.index);
-    const auto compareFilm = [&](const Film &film, std::span<const layout::FilmPixel> pixels,
-                                 std::string_view of) {
-        const std::optional<std::size_t> index = firstDifference(pixelsIn(film, squares), pixels);
-        if (!index)
+    const auto compareFilm = [&](const Film &film, const FilmRecords &records, std::string_view of) {
+        const std::size_t index = firstDifference(recordsIn(film, squares), records);
+        if (index == records.pixels.size())
             return;
-        const Place place = placeOf(squares, *index);
+        const Place place = placeOf(squares, index);
         faults_.differences.push_back(fmt::format(
             "part {} of {} differs{} in the tile at {},{}, first at the pixel {},{}: {} and '{}', made by {}",
             file.part.index, file.part.count, of, place.square.x0, place.square.y0, place.x, place.y,
             describe(file.part.index), second.path, second.maker));
     };
-    compareFilm(*film_, file.pixels, "");
+    compareFilm(*film_, file.film, "");
     for (std::size_t i = 0; i < layers_.size(); ++i)
         compareFilm(layers_[i].film, file.layers[i],
                     fmt::format(" in its layer {}", nameOf(layers_[i].view)));

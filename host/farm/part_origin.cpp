@@ -2,6 +2,7 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/packing/light_planes.h"
 #include "host/report/provenance.h"
 #include "host/scene/names.h"
 
@@ -80,6 +81,8 @@ std::string toText(const PartOrigin &origin) {
         if (!layer.names.empty())
             json["names"][std::string(nameOf(layer.view))] = layer.names;
     }
+    if (!origin.lightPlanes.empty())
+        json["lightPlanes"] = origin.lightPlanes;
     if (origin.projection)
         json["projection"] = {{"worldToCamera", origin.projection->worldToCamera},
                               {"worldToNdc", origin.projection->worldToNdc},
@@ -123,6 +126,9 @@ PartOrigin readPartOrigin(std::string_view text) {
                 layer.names = json.at("names").value(word.get<std::string>(), layer.names);
             origin.layers.push_back(std::move(layer));
         }
+        origin.lightPlanes = json.value("lightPlanes", origin.lightPlanes);
+        if (!std::ranges::all_of(origin.lightPlanes, isLightPlaneName))
+            throw Error(ErrorKind::BadInput, "its layers of light have names that no render gives");
         if (json.contains("projection"))
             origin.projection = projectionOf(json.at("projection"));
         const nlohmann::ordered_json &settings = provenance.at("settings");

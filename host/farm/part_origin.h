@@ -24,6 +24,7 @@ struct PartOrigin {
     int wholeWidth = 0;             ///< of the picture that the crop is of, in pixels
     int wholeHeight = 0;
     std::vector<PartLayer> layers;
+    std::vector<std::string> lightPlanes; ///< of the film
     std::optional<Projection> projection; ///< of the camera; none of a panorama, nor of older parts
     std::string provenance;               ///< of the render, with its device, as JSON
 

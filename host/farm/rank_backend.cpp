@@ -8,9 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -22,25 +23,29 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-/// A message: what it says, and pixels.
+/// A message: what it says, and what a film has of some pixels.
 ///
-///     the size of the JSON, 8 bytes   JSON   pixels
+///     the size of the JSON and the number of pixels, 8 bytes each   JSON   pixels   layers of light
 struct Message {
     std::string text; ///< the JSON
-    std::vector<layout::FilmPixel> pixels{};
+    FilmRecords records{};
 
     [[nodiscard]] json header() const { return json::parse(text); }
 };
 
-void send(Ranks &ranks, int to, const json &header, std::span<const layout::FilmPixel> pixels = {}) {
+using MessageSizes = std::array<std::uint64_t, 2>;
+
+void send(Ranks &ranks, int to, const json &header, const FilmRecords &records = {}) {
     const std::string text = header.dump(-1, ' ', false, json::error_handler_t::replace);
-    const std::uint64_t textSize = text.size();
-    const std::span<const std::byte> pixelBytes = std::as_bytes(pixels);
-    std::vector<std::byte> bytes(sizeof(textSize) + text.size() + pixelBytes.size());
-    std::memcpy(bytes.data(), &textSize, sizeof(textSize));
-    std::memcpy(bytes.data() + sizeof(textSize), text.data(), text.size());
-    if (!pixelBytes.empty())
-        std::memcpy(bytes.data() + sizeof(textSize) + text.size(), pixelBytes.data(), pixelBytes.size());
+    const MessageSizes sizes{text.size(), records.pixels.size()};
+    std::vector<std::byte> bytes;
+    const auto append = [&bytes](std::span<const std::byte> piece) {
+        bytes.insert(bytes.end(), piece.begin(), piece.end());
+    };
+    append(std::as_bytes(std::span(sizes)));
+    append(std::as_bytes(std::span(text)));
+    append(std::as_bytes(std::span(records.pixels)));
+    append(std::as_bytes(std::span(records.light)));
     ranks.send(to, bytes);
 }
 
@@ -48,15 +53,19 @@ std::optional<Message> poll(Ranks &ranks, int from) {
     const std::optional<std::vector<std::byte>> bytes = ranks.poll(from);
     if (!bytes)
         return std::nullopt;
-    std::uint64_t textSize = 0;
-    std::memcpy(&textSize, bytes->data(), sizeof(textSize));
-    const std::span<const std::byte> rest = std::span(*bytes).subspan(sizeof(textSize));
+    std::span<const std::byte> rest = *bytes;
+    const auto take = [&rest](auto &values, std::size_t count) {
+        values.resize(count);
+        const std::span<std::byte> into = std::as_writable_bytes(std::span(values));
+        std::ranges::copy(rest.first(into.size()), into.begin());
+        rest = rest.subspan(into.size());
+    };
+    std::vector<std::uint64_t> sizes;
+    take(sizes, MessageSizes().size());
     Message message;
-    message.text.assign(reinterpret_cast<const char *>(rest.data()), textSize);
-    const std::span<const std::byte> pixels = rest.subspan(textSize);
-    message.pixels.resize(pixels.size() / sizeof(layout::FilmPixel));
-    if (!pixels.empty())
-        std::memcpy(message.pixels.data(), pixels.data(), pixels.size());
+    take(message.text, sizes[0]);
+    take(message.records.pixels, sizes[1]);
+    take(message.records.light, rest.size() / sizeof(float));
     return message;
 }
 
@@ -124,7 +133,7 @@ class RankBackend : public Backend {
              {{"kind", "tile"},
               {"settings", settingsToJson(settings)},
               {"crop", {crop.x0, crop.x1, crop.y0, crop.y1}}},
-             film.pixels);
+             film);
         std::optional<Clock::time_point> stopped;
         std::optional<Message> answer;
         while (!(answer = poll(ranks_, rank_))) {
@@ -140,7 +149,7 @@ class RankBackend : public Backend {
         const json header = answer->header();
         if (const std::string why = header.at("error"); !why.empty())
             throw Error(static_cast<ErrorKind>(header.at("errorKind").get<int>()), why);
-        film.pixels = std::move(answer->pixels);
+        static_cast<FilmRecords &>(film) = std::move(answer->records);
         BackendResult result{std::move(film), raysFrom(header.at("rays")), {}, {}};
         result.timing.dispatchCount = header.at("dispatches");
         result.timing.pipelineSeconds = header.at("pipelineSeconds");
@@ -190,11 +199,11 @@ class StopQuestion {
 
 /// Renders the tile of a message, and answers.
 void renderTile(Ranks &ranks, const PackedScene &scene, Backend &backend, const json &job,
-                std::vector<layout::FilmPixel> pixels) {
+                FilmRecords records) {
     const json &crop = job.at("crop");
     Film film{Crop{}};
     film.crop = {crop.at(0), crop.at(1), crop.at(2), crop.at(3)};
-    film.pixels = std::move(pixels);
+    static_cast<FilmRecords &>(film) = std::move(records);
     StopQuestion shouldStop(ranks);
     try {
         const BackendResult result =
@@ -210,7 +219,7 @@ void renderTile(Ranks &ranks, const PackedScene &scene, Backend &backend, const 
               {"faults", result.faults},
               {"failure", result.failure ? result.failure->what() : ""},
               {"failureKind", static_cast<int>(result.failure ? result.failure->kind : ErrorKind{})}},
-             result.film.pixels);
+             result.film);
     } catch (const Error &error) {
         send(ranks, 0, {{"error", error.what()}, {"errorKind", static_cast<int>(error.kind)}});
     }
@@ -263,7 +272,7 @@ void serveTiles(Ranks &ranks, const PreparedScene &scene, Backend &backend) {
         if (kind == "end")
             return;
         if (kind == "tile") // a "stop" that comes after its tile means nothing
-            renderTile(ranks, scene.packed, backend, header, std::move(message.pixels));
+            renderTile(ranks, scene.packed, backend, header, std::move(message.records));
     }
 }
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view magic = "hyalite checkpoint\n";
 constexpr std::uint32_t maxIdentityBytes = 1u << 16;
 constexpr std::uint32_t maxOriginBytes = 1u << 26; // it has the names of the scene, where layers need them
-constexpr std::uint32_t maxLayers = 64;
+constexpr std::uint32_t maxLayers = 64;            // of light, likewise
 
 struct Header {
     std::uint32_t version;
@@ -32,7 +32,7 @@ struct Header {
     std::uint32_t samplesPerPixel;
     std::uint32_t layerCount;
     std::uint32_t originBytes;
-    std::uint32_t zero;
+    std::uint32_t lightPlanes;
 };
 static_assert(sizeof(Header) == 88 && std::has_unique_object_representations_v<Header>);
 
@@ -84,10 +84,12 @@ class Reader {
             contents.rays.*rayKinds[i].count = header.rays[i];
         contents.identity.resize(header.identityBytes);
         contents.origin.resize(header.originBytes);
-        contents.pixels.resize(pixelCount);
+        contents.lightPlaneCount = header.lightPlanes;
+        contents.film.pixels.resize(pixelCount);
+        contents.film.light.resize(pixelCount * layout::lightWordsPerPlane * header.lightPlanes);
         contents.layers.resize(header.layerCount);
-        for (std::vector<layout::FilmPixel> &layer : contents.layers)
-            layer.resize(pixelCount);
+        for (FilmRecords &layer : contents.layers)
+            layer.pixels.resize(pixelCount);
         offset_ = head.size();
         std::uint64_t hash = hashBytes(head);
         const auto readHashed = [&](std::span<std::byte> piece) {
@@ -96,9 +98,13 @@ class Reader {
         };
         readHashed(std::as_writable_bytes(std::span(contents.identity)));
         readHashed(std::as_writable_bytes(std::span(contents.origin)));
-        readHashed(std::as_writable_bytes(std::span(contents.pixels)));
-        for (std::vector<layout::FilmPixel> &layer : contents.layers)
-            readHashed(std::as_writable_bytes(std::span(layer)));
+        const auto readRecords = [&](FilmRecords &records) {
+            readHashed(std::as_writable_bytes(std::span(records.pixels)));
+            if (!records.light.empty())
+                readHashed(std::as_writable_bytes(std::span(records.light)));
+        };
+        readRecords(contents.film);
+        std::ranges::for_each(contents.layers, readRecords);
         std::uint64_t expected = 0;
         readPiece(std::as_writable_bytes(std::span(&expected, 1)));
         if (hash != expected)
@@ -126,12 +132,15 @@ class Reader {
                                             bytes, maxBytes));
         const Crop crop{header.x0, header.x1, header.y0, header.y1};
         if (header.partIndex < 1 || header.partIndex > header.partCount ||
-            header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers || header.zero != 0)
-            throw file_.bad(fmt::format("it is damaged: it would be part {} of {}, with {} layers",
-                                        header.partIndex, header.partCount, header.layerCount));
+            header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers ||
+            header.lightPlanes > maxLayers)
+            throw file_.bad(
+                fmt::format("it is damaged: it would be part {} of {}, with {} layers and {} of light",
+                            header.partIndex, header.partCount, header.layerCount, header.lightPlanes));
         const std::uint64_t besidePixels =
             magic.size() + sizeof(Header) + header.identityBytes + header.originBytes + sizeof(std::uint64_t);
-        const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount);
+        const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount) +
+                                        sizeof(float) * layout::lightWordsPerPlane * header.lightPlanes;
         const std::uint64_t inFile =
             file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
         // Before the squares are counted, which takes memory: parts are alike, except for few squares.
@@ -239,7 +248,7 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
                   subject_.samplesPerPixel,
                   static_cast<std::uint32_t>(layers.size()),
                   static_cast<std::uint32_t>(subject_.origin.size()),
-                  0};
+                  static_cast<std::uint32_t>(film.lightSize() / layout::lightWordsPerPlane)};
     for (std::size_t i = 0; i < rayKinds.size(); ++i)
         header.rays[i] = rays.*rayKinds[i].count;
     std::string head(magic);
@@ -256,12 +265,15 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
     writeHashed(std::as_bytes(std::span(subject_.origin)));
     const std::span<const Crop> squares = partition_.squaresOf(subject_.part.index);
     const auto writeFilm = [&](const Film &whole) {
-        if (subject_.part.count == 1) {
-            writeHashed(std::as_bytes(std::span(whole.pixels)));
-            return;
-        }
-        const std::vector<layout::FilmPixel> own = pixelsIn(whole, squares);
-        writeHashed(std::as_bytes(std::span(own)));
+        const auto writeRecords = [&](const FilmRecords &records) {
+            writeHashed(std::as_bytes(std::span(records.pixels)));
+            if (!records.light.empty())
+                writeHashed(std::as_bytes(std::span(records.light)));
+        };
+        if (subject_.part.count == 1)
+            writeRecords(whole);
+        else
+            writeRecords(recordsIn(whole, squares));
     };
     writeFilm(film);
     for (const Film *layer : layers)
@@ -307,7 +319,7 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
         throw other(fmt::format("part: {}/{} there, {}/{} here", file.part.index, file.part.count,
                                 subject.part.index, subject.part.count));
     std::uint32_t maxSamples = 0;
-    for (const layout::FilmPixel &pixel : file.pixels)
+    for (const layout::FilmPixel &pixel : file.film.pixels)
         maxSamples = std::max(maxSamples, pixel.sampleCount);
     if (maxSamples > subject.samplesPerPixel)
         throw other(
@@ -315,15 +327,15 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
     Checkpoint checkpoint{Film(Crop{}), {}, file.rays};
     if (file.part.count == 1) {
         checkpoint.film.crop = file.crop;
-        checkpoint.film.pixels = std::move(file.pixels);
+        static_cast<FilmRecords &>(checkpoint.film) = std::move(file.film);
     } else {
         const Partition partition(file.crop, file.part.count);
         const std::span<const Crop> squares = partition.squaresOf(file.part.index);
         checkpoint.film = filmOfSquares(file.crop, squares, subject.samplesPerPixel);
-        setPixelsIn(checkpoint.film, squares, file.pixels);
-        for (const std::vector<layout::FilmPixel> &pixels : file.layers) {
+        setRecordsIn(checkpoint.film, squares, file.film);
+        for (const FilmRecords &layer : file.layers) {
             checkpoint.layers.push_back(filmOfSquares(file.crop, squares, subject.samplesPerPixel));
-            setPixelsIn(checkpoint.layers.back(), squares, pixels);
+            setRecordsIn(checkpoint.layers.back(), squares, layer);
         }
     }
     return checkpoint;

@@ -9,12 +9,13 @@
 //     u64 primary, shadow, reflection, refraction and bounce rays that were traced
 //     u32 index of the part, from 1     u32 number of parts: 1 for a whole render
 //     u32 samples wanted for each pixel     u32 number of layers
-//     u32 bytes of the origin     u32 0
+//     u32 bytes of the origin     u32 number of layers of light
 //     the identity, a line "name: value" for each of its parts
 //     the origin: what the writer says of itself
 //     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row. One word of a
 //     pixel is 0, and is kept for what later samples or filters want to know of it; more than that is a layer
-//     those of each layer
+//     the layers of light of these pixels (film.h)
+//     the pixels of each layer
 //     u64 hash of all that
 #pragma once
 
@@ -34,7 +35,7 @@
 namespace hyalite::core {
 
 /// Of checkpoints and parts. Files of another version are refused by name.
-inline constexpr std::uint32_t checkpointVersion = 6;
+inline constexpr std::uint32_t checkpointVersion = 7;
 
 /// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
 /// values have no line ends, and names have no colons.
@@ -49,8 +50,9 @@ struct CheckpointFile {
     Part part;
     std::uint32_t samplesPerPixel = 0; ///< that are wanted
     RayCounts rays;                    ///< traced for the pixels
-    std::vector<layout::FilmPixel> pixels;
-    std::vector<std::vector<layout::FilmPixel>> layers;
+    std::uint32_t lightPlaneCount = 0;
+    FilmRecords film; ///< of the part
+    std::vector<FilmRecords> layers;
 };
 
 struct Checkpoint {

@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace hyalite::core {
@@ -54,14 +56,34 @@ namespace hyalite::core {
     return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
 }
 
-struct Film {
-    Crop crop;
-    std::vector<layout::FilmPixel> pixels; ///< row by row from the top left
+/// What a film has of some pixels.
+struct FilmRecords {
+    std::vector<layout::FilmPixel> pixels;
+    /// Layers of light: of each pixel the sums of the samples of all planes, three channels each, and then the rests of
+    /// these sums. Empty without planes.
+    std::vector<float> light{};
+
+    /// For each pixel.
+    [[nodiscard]] std::size_t lightSize() const { return pixels.empty() ? 0 : light.size() / pixels.size(); }
+};
+
+struct Film : FilmRecords {
+    Crop crop;                              ///< its pixels are row by row from the top left
+    std::vector<std::string> lightPlanes{}; ///< names of the layers of light that are kept
 
     /// Without samples.
     Film(const Crop &region)
-        : crop(region),
-          pixels(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height())) {}
+        : FilmRecords{std::vector<layout::FilmPixel>(static_cast<std::size_t>(region.width()) *
+                                                     static_cast<std::size_t>(region.height()))},
+          crop(region) {}
+
+    /// Keeps layers of light by these names from now on. Their sums stay, if there are as many.
+    void keepLight(std::vector<std::string> planes) {
+        if (const std::size_t size = pixels.size() * layout::lightWordsPerPlane * planes.size();
+            light.size() != size)
+            light.assign(size, 0.0f);
+        lightPlanes = std::move(planes);
+    }
 
     /// The mean of the samples of each pixel; black without samples.
     [[nodiscard]] Image toImage() const {
@@ -71,15 +93,25 @@ struct Film {
     }
 };
 
+/// The mean of the samples of a layer of light in a pixel, both by index; black without samples.
+[[nodiscard]] glm::vec3 meanLightOf(const Film &film, std::size_t pixel, std::size_t plane);
+
 /// Row y of the crop, from 0. `film` must outlive it.
 [[nodiscard]] std::span<const layout::FilmPixel> rowOf(const Film &film, int y);
 
-/// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; and "samples", the
-/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part. `film` must outlive them.
+/// The layers of light, RGB. `film` must outlive them.
+[[nodiscard]] std::vector<Layer> lightLayers(const Film &film);
+
+/// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; "samples", the
+/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part; and its layers of light.
+/// `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
-/// Whether two pixels are equal in every bit.
-[[nodiscard]] bool haveEqualBits(const layout::FilmPixel &a, const layout::FilmPixel &b);
+/// Whether the pixels of this index are equal in every bit, their layers of light included.
+[[nodiscard]] bool haveEqualBits(const FilmRecords &a, const FilmRecords &b, std::size_t pixel);
+
+/// The first pixel that differs in any bit, or the number of pixels.
+[[nodiscard]] std::size_t firstDifference(const FilmRecords &a, const FilmRecords &b);
 
 /// Number of pixels that differ in any bit between two films of one crop.
 [[nodiscard]] std::size_t differingPixelCount(const Film &a, const Film &b);

@@ -114,16 +114,14 @@ std::uint64_t Partition::pixelCountOf(std::uint32_t part) const {
 
 namespace {
 
-/// Calls visit(row of the film in a square) for each, in order.
-template <class SomeFilm, class Visit>
-void visitRows(SomeFilm &film, std::span<const Crop> squares, const Visit &visit) {
+/// Calls visit(index of the first pixel, number of pixels) for each row of the film in a square, in order.
+template <class Visit> void visitRows(const Film &film, std::span<const Crop> squares, const Visit &visit) {
     const auto width = static_cast<std::size_t>(film.crop.width());
     for (const Crop &square : squares)
-        for (int y = square.y0; y < square.y1; ++y) {
-            const std::size_t begin = static_cast<std::size_t>(y - film.crop.y0) * width +
-                                      static_cast<std::size_t>(square.x0 - film.crop.x0);
-            visit(std::span(film.pixels).subspan(begin, static_cast<std::size_t>(square.width())));
-        }
+        for (int y = square.y0; y < square.y1; ++y)
+            visit(static_cast<std::size_t>(y - film.crop.y0) * width +
+                      static_cast<std::size_t>(square.x0 - film.crop.x0),
+                  static_cast<std::size_t>(square.width()));
 }
 
 } // namespace
@@ -137,31 +135,45 @@ double shareOutside(const Crop &crop, std::span<const Crop> squares) {
 
 void visitRowsIn(const Film &film, std::span<const Crop> squares,
                  const std::function<void(std::span<const layout::FilmPixel>)> &visit) {
-    visitRows(film, squares, visit);
+    visitRows(film, squares, [&](std::size_t first, std::size_t count) {
+        visit(std::span(film.pixels).subspan(first, count));
+    });
 }
 
-std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares) {
-    std::vector<layout::FilmPixel> pixels;
-    visitRows(film, squares, [&](std::span<const layout::FilmPixel> row) {
-        pixels.insert(pixels.end(), row.begin(), row.end());
+FilmRecords recordsIn(const Film &film, std::span<const Crop> squares) {
+    FilmRecords records;
+    const std::size_t size = film.lightSize();
+    visitRows(film, squares, [&](std::size_t first, std::size_t count) {
+        const auto row = std::span(film.pixels).subspan(first, count);
+        const auto light = std::span(film.light).subspan(first * size, count * size);
+        records.pixels.insert(records.pixels.end(), row.begin(), row.end());
+        records.light.insert(records.light.end(), light.begin(), light.end());
     });
-    return pixels;
+    return records;
 }
 
-void setPixelsIn(Film &film, std::span<const Crop> squares, std::span<const layout::FilmPixel> pixels) {
-    visitRows(film, squares, [&](std::span<layout::FilmPixel> row) {
-        std::ranges::copy(pixels.first(row.size()), row.begin());
-        pixels = pixels.subspan(row.size());
+void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &records) {
+    const std::size_t size = records.lightSize();
+    if (film.lightSize() != size)
+        film.light.assign(film.pixels.size() * size, 0.0f);
+    std::size_t done = 0;
+    visitRows(film, squares, [&](std::size_t first, std::size_t count) {
+        std::ranges::copy(std::span(records.pixels).subspan(done, count),
+                          std::span(film.pixels).subspan(first).begin());
+        std::ranges::copy(std::span(records.light).subspan(done * size, count * size),
+                          std::span(film.light).subspan(first * size).begin());
+        done += count;
     });
-    assert(pixels.empty());
+    assert(done == records.pixels.size());
 }
 
 Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_t sampleCount) {
     Film film(crop);
     for (layout::FilmPixel &pixel : film.pixels)
         pixel.sampleCount = sampleCount;
-    visitRows(film, squares,
-              [](std::span<layout::FilmPixel> row) { std::ranges::fill(row, layout::FilmPixel{}); });
+    visitRows(film, squares, [&](std::size_t first, std::size_t count) {
+        std::ranges::fill(std::span(film.pixels).subspan(first, count), layout::FilmPixel{});
+    });
     return film;
 }
 

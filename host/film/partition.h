@@ -54,11 +54,12 @@ class Partition {
 void visitRowsIn(const Film &film, std::span<const Crop> squares,
                  const std::function<void(std::span<const layout::FilmPixel>)> &visit);
 
-/// The film's pixels in the squares: those of each in their order, row by row.
-[[nodiscard]] std::vector<layout::FilmPixel> pixelsIn(const Film &film, std::span<const Crop> squares);
+/// What the film has in the squares: of each in their order, row by row.
+[[nodiscard]] FilmRecords recordsIn(const Film &film, std::span<const Crop> squares);
 
-/// The opposite: gives the film these pixels, as many as the squares have.
-void setPixelsIn(Film &film, std::span<const Crop> squares, std::span<const layout::FilmPixel> pixels);
+/// The opposite: gives the film these records, as many as the squares have pixels. Layers of light are kept from then
+/// on, if the records have any.
+void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &records);
 
 /// A film in which pixels outside of the squares have `sampleCount` samples already: a render leaves them alone.
 [[nodiscard]] Film filmOfSquares(const Crop &crop, std::span<const Crop> squares, std::uint32_t sampleCount);

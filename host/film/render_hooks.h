@@ -6,7 +6,6 @@
 #include "host/film/timeline.h"
 
 #include <functional>
-#include <span>
 
 namespace hyalite::core {
 
@@ -19,10 +18,9 @@ class SnapshotTaker {
     /// Whether a copy is wanted now. Called often, and from any thread.
     [[nodiscard]] virtual bool isWanted() const noexcept = 0;
 
-    /// Called by one thread, soon after a copy was wanted. `copyFilm` fills the pixels of the whole film; `rays` were
-    /// traced by this render for them. Does not throw.
-    virtual void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-                      const RayCounts &rays) = 0;
+    /// Called by one thread, soon after a copy was wanted. `copyTo` copies the whole film; `rays` were traced by this
+    /// render for it. Does not throw.
+    virtual void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) = 0;
 };
 
 /// All may be empty.

@@ -19,6 +19,7 @@ struct Job {
     bool isTraced;
     /// Samples are added to it; empty: start without samples. Read only at the start.
     std::span<const layout::FilmPixel> film{};
+    std::span<const float> light{}; ///< the layers of light of these pixels
 };
 
 } // namespace hyalite::core::gpu

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/host_memory.h"
 #include "host/base/quantities.h"
+#include "host/packing/light_planes.h"
 #include "host/packing/skip_list.h"
 
 #include <fmt/format.h>
@@ -48,14 +49,20 @@ std::uint32_t fitSamplesInFlight(int most, std::uint32_t samples) {
     return inFlight;
 }
 
+/// Of a path that waits.
+std::uint64_t lightBytesOfPath(const LightPlanes &planes) {
+    return planes.count() == 0 ? 0 : (layout::lightStateWords + 3 * planes.groups) * sizeof(std::uint32_t);
+}
+
 /// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
 WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
     const bool isSplitting = rowOf(job.settings.integrator).splitsAtGlass && job.scene.hasDielectric;
     const std::uint32_t maxPending = isSplitting ? static_cast<std::uint32_t>(job.settings.maxDepth) - 1 : 0;
     const bool keepsPending = !isResumable && maxPending <= layout::maxPendingInRegisters;
     WaitingPlan waiting;
-    waiting.paths =
-        plan("the path slots", BufferUse::Storage, isResumable ? slots * sizeof(layout::PathRecord) : 0);
+    const std::uint64_t lightBytes = lightBytesOfPath(lightPlanesOf(job.scene, job.settings));
+    waiting.paths = plan("the path slots", BufferUse::Storage,
+                         isResumable ? slots * (sizeof(layout::PathRecord) + lightBytes) : 0);
     waiting.pending = plan("the pending rays", bulkUse(isSkipList),
                            keepsPending ? 0 : slots * maxPending * sizeof(layout::PendingRay));
     waiting.pendingInRegisters = keepsPending ? maxPending : 0;
@@ -145,11 +152,14 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
     planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
+    const std::uint32_t lightPlanes = lightPlanesOf(job.scene, job.settings).count();
     // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays
-    // take less, and whitted's paths end together.
+    // take less, and whitted's paths end together. To keep layers of light of samples that wait costs more than that.
     planned.regeneratesPaths = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
-                               !job.scene.needsTree(job.settings.integrator);
+                               !job.scene.needsTree(job.settings.integrator) && lightPlanes == 0;
     planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
+    planned.light = plan("the layers of light", BufferUse::Storage,
+                         filmPixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
         plan("the trace", BufferUse::Storage, job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0);
@@ -192,6 +202,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
 MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job, bool isStaged, const DeviceInfo &device,
                          std::uint64_t residentBytes) {
     std::vector<const BufferPlan *> buffers{&job.film,
+                                            &job.light,
                                             &job.progress,
                                             &job.stacks,
                                             &job.trace,

@@ -39,6 +39,7 @@ struct JobPlan {
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
     BufferPlan film;
+    BufferPlan light; ///< the film's layers of light
     BufferPlan progress;
     BufferPlan stacks; ///< of the traversal, or the finished samples of slots that take them in turn
     BufferPlan trace;

@@ -9,6 +9,7 @@
 #include "host/gpu/tile_renderer.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/device.h"
+#include "host/packing/light_planes.h"
 
 #include <fmt/format.h>
 
@@ -26,8 +27,10 @@ namespace hyalite::core::gpu {
 namespace {
 
 /// Bands of whole rows, from top to bottom, whose films fit into a storage buffer and a quarter of the device memory.
-std::vector<Crop> cutIntoBands(const Crop &crop, const DeviceInfo &device) {
-    const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * sizeof(layout::FilmPixel);
+std::vector<Crop> cutIntoBands(const Film &film, const DeviceInfo &device) {
+    const Crop &crop = film.crop;
+    const std::uint64_t pixelBytes = sizeof(layout::FilmPixel) + film.lightSize() * sizeof(float);
+    const std::uint64_t rowBytes = static_cast<std::uint64_t>(crop.width()) * pixelBytes;
     const std::uint64_t maxFilmBytes =
         std::min(maxBufferBytes(BufferUse::Storage, device), device.deviceMemoryBytes / 4);
     const int rows = static_cast<int>(
@@ -188,6 +191,23 @@ struct Renderer::State {
     }
 };
 
+/// The pixels of a band in the film.
+struct BandRange {
+    std::size_t first;
+    std::size_t count;
+
+    [[nodiscard]] std::span<layout::FilmPixel> pixelsOf(FilmRecords &film) const {
+        return std::span(film.pixels).subspan(first, count);
+    }
+    [[nodiscard]] std::span<float> lightOf(FilmRecords &film) const {
+        const std::size_t size = film.lightSize();
+        return std::span(film.light).subspan(first * size, count * size);
+    }
+    void read(const TileRenderer &tiles, FilmRecords &film) const {
+        tiles.readFilm(pixelsOf(film), lightOf(film));
+    }
+};
+
 /// One attempt at a render: adds the missing samples to the result, and keeps its film and rays consistent.
 class Renderer::Attempt {
   public:
@@ -201,7 +221,7 @@ class Renderer::Attempt {
     void run() {
         if (hooks_.timeline != nullptr)
             hooks_.timeline->clock = state_.device->timestamps().describe();
-        const std::vector<Crop> bands = cutIntoBands(result_.film.crop, state_.info);
+        const std::vector<Crop> bands = cutIntoBands(result_.film, state_.info);
         const Job firstJob = jobOf(bands.front());
         const JobPlan firstPlan = planJob(firstJob, config_, state_.info);
         state_.keepOnly(scene_, isSkipList());
@@ -239,13 +259,13 @@ class Renderer::Attempt {
     bool renderBand(const Crop &band, const SceneBuffers &buffers, std::future<void> &firstPipeline) {
         const Crop crop = result_.film.crop;
         const auto width = static_cast<std::size_t>(crop.width());
-        const std::span<layout::FilmPixel> pixels =
-            std::span(result_.film.pixels)
-                .subspan(static_cast<std::size_t>(band.y0 - crop.y0) * width,
-                         static_cast<std::size_t>(band.height()) * width);
+        const BandRange range{static_cast<std::size_t>(band.y0 - crop.y0) * width,
+                              static_cast<std::size_t>(band.height()) * width};
         Job job = jobOf(band);
-        if (isBegun_)
-            job.film = pixels;
+        if (isBegun_) {
+            job.film = range.pixelsOf(result_.film);
+            job.light = range.lightOf(result_.film);
+        }
         const RayCounts raysBefore = result_.rays;
         DispatchCosts &costs = state_.resident->costs[settings_.integrator];
         RenderTiming &timing = result_.timing;
@@ -266,37 +286,32 @@ class Renderer::Attempt {
                     hooks_.onProgress((rowsBefore + share * band.height()) / crop.height());
             },
             hooks_.timeline, hooks_.shouldStop,
-            [&](const RayCounts &rays) { copyFilm(tiles, pixels, raysBefore + rays); });
-        if (pixels.size() >= DispatchSizer::minPixels) // fewer leave most slots idle
+            [&](const RayCounts &rays) { copyFilm(tiles, range, raysBefore + rays); });
+        if (range.count >= DispatchSizer::minPixels) // fewer leave most slots idle
             costs = tiles.costs();
         result_.work += totals.work;
         result_.lanes += totals.lanes;
         timing.dispatchCount += totals.dispatchCount;
         timing.pipelineSeconds += tiles.lateBuildSeconds();
         timing.renderSeconds += endStage("dispatches") - tiles.lateBuildSeconds();
-        tiles.readFilm(pixels);
+        range.read(tiles, result_.film);
         result_.rays = raysBefore + totals.rays;
         endStage("readback");
         return !totals.isStopped;
     }
 
     /// Between two dispatches: copies the film to the result and to a snapshot, if it is time.
-    void copyFilm(const TileRenderer &tiles, std::span<layout::FilmPixel> band, const RayCounts &rays) {
+    void copyFilm(const TileRenderer &tiles, const BandRange &range, const RayCounts &rays) {
         // The work of lost dispatches is unknown, so a render that counts starts again.
         if (!config_.isCounting && keeper_.isDue()) {
-            keeper_.keep([&] { tiles.readFilm(band); });
+            keeper_.keep([&] { range.read(tiles, result_.film); });
             result_.rays = rays;
         }
         if (hooks_.snapshots == nullptr || !hooks_.snapshots->isWanted())
             return;
-        const auto copyTo = [&](std::span<layout::FilmPixel> copy) {
-            const std::span<layout::FilmPixel> pixels = result_.film.pixels;
-            const auto begin = static_cast<std::size_t>(band.data() - pixels.data());
-            const std::size_t end = begin + band.size();
-            // Other bands have all their samples, or those from before the render.
-            std::ranges::copy(pixels.first(begin), copy.begin());
-            std::ranges::copy(pixels.subspan(end), copy.subspan(end).begin());
-            tiles.readFilm(copy.subspan(begin, band.size()));
+        const auto copyTo = [&](Film &copy) {
+            copy = result_.film; // other bands have all their samples, or those from before the render
+            range.read(tiles, copy);
         };
         hooks_.snapshots->take(copyTo, rays);
     }
@@ -342,6 +357,7 @@ std::uint64_t Renderer::kernelHash(const PackedScene &scene, Integrator integrat
 Result Renderer::render(const PackedScene &scene, const RenderSettings &settings, Film begun,
                         const RenderHooks &hooks) {
     bool isBegun = std::ranges::any_of(begun.pixels, [](const auto &pixel) { return pixel.sampleCount > 0; });
+    begun.keepLight(lightPlaneNames(scene, settings));
     state_->config = state_->faultless; // a fault of a former render says little of this one
     Result result{std::move(begun), {}, {}, {}};
     for (int retry = 0;; ++retry) {

@@ -1,6 +1,7 @@
 #include "host/gpu/tile_renderer.h"
 
 #include "host/base/error.h"
+#include "host/packing/light_planes.h"
 #include "host/scene/names.h"
 #include "shaders/embedded_kernels.h"
 
@@ -45,12 +46,13 @@ const WaitingPlan &waitingPlan(const JobPlan &plan, bool isResumable) {
 
 /// Buffers or their plans, by binding. `scene` are those of the scene.
 template <class T, class Scene>
-std::array<const T *, layout::bindingCount> byBinding(const Scene &scene, const T &film, const T &progress,
-                                                      const T &paths, const T &pending, const T &stacks,
-                                                      const T &trace) {
+std::array<const T *, layout::bindingCount> byBinding(const Scene &scene, const T &film, const T &light,
+                                                      const T &progress, const T &paths, const T &pending,
+                                                      const T &stacks, const T &trace) {
     std::array<const T *, layout::bindingCount> all{};
     std::ranges::transform(scene, all.begin(), [](const T &one) { return &one; });
     all[layout::bindingFilm] = &film;
+    all[layout::bindingLight] = &light;
     all[layout::bindingProgress] = &progress;
     all[layout::bindingPaths] = &paths;
     all[layout::bindingPending] = &pending;
@@ -84,6 +86,9 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantTexturing] = scene.texturing;
     constants[layout::constantAnyHit] = scene.anyHit;
     constants[layout::constantAlpha] = alphaKindOf(job.settings);
+    const LightPlanes light = lightPlanesOf(scene, job.settings);
+    constants[layout::constantLightClasses] = light.classes;
+    constants[layout::constantLightGroups] = light.groups;
     constants[layout::constantTrianglePairs] =
         config.traversal == Traversal::SkipList
             ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator))
@@ -112,7 +117,7 @@ std::shared_ptr<Pipeline> pipelineOf(Device &device, PipelineCache &pipelines, c
                                      bool isResumable) {
     const WaitingPlan &waiting = waitingPlan(plan, isResumable);
     std::array<BufferUse, layout::bindingCount> uses{};
-    std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.progress, waiting.paths,
+    std::ranges::transform(byBinding(scenePlan.buffers, plan.film, plan.light, plan.progress, waiting.paths,
                                      waiting.pending, plan.stacks, plan.trace),
                            uses.begin(), [](const BufferPlan *buffer) { return buffer->use; });
     return pipelines.get(
@@ -128,15 +133,19 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
                            const RenderConfig &config, const Job &job, const ScenePlan &scenePlan,
                            const JobPlan &plan, const DispatchCosts &known)
     : device_(device), pipelines_(pipelines), buffers_(buffers), config_(config), job_(job),
-      scenePlan_(scenePlan), plan_(plan), film_(device, plan.film), progress_(device, plan.progress),
-      stacks_(device, plan.stacks), trace_(device, plan.trace),
+      scenePlan_(scenePlan), plan_(plan), film_(device, plan.film), light_(device, plan.light),
+      progress_(device, plan.progress), stacks_(device, plan.stacks), trace_(device, plan.trace),
       unfinished_(job.film, static_cast<std::uint32_t>(job.crop.width()),
                   static_cast<std::uint32_t>(job.crop.height()), job.sampleEnd),
       sizer_(config.dispatchSeconds, plan.samplesInFlight, plan.largestTile.pixelCount(), known) {
-    if (job.film.empty())
+    if (job.film.empty()) {
         film_.clear();
-    else
+        if (lightPlanesOf(job.scene, job.settings).count() > 0)
+            light_.clear();
+    } else {
         film_.upload(std::as_bytes(job.film));
+        light_.upload(std::as_bytes(job.light));
+    }
     for (const layout::FilmPixel &pixel : job.film)
         samplesInFilm_ += pixel.sampleCount;
     const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
@@ -209,7 +218,7 @@ TileRenderer::Program TileRenderer::makeProgram(bool isResumable) {
     const WaitingPlan &waiting = waitingPlan(plan_, isResumable);
     Buffer paths(device_, waiting.paths);
     Buffer pending(device_, waiting.pending);
-    const auto bound = byBinding(buffers_.buffers, film_, progress_, paths, pending, stacks_, trace_);
+    const auto bound = byBinding(buffers_.buffers, film_, light_, progress_, paths, pending, stacks_, trace_);
     Kernel kernel(device_, pipelineOf(device_, pipelines_, config_, job_, scenePlan_, plan_, isResumable),
                   bound);
     std::optional<Kernel> adding;
@@ -338,8 +347,9 @@ bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {
            item.tile.pixelCount() > (item.isLong ? std::min(most, plan_.maxHelperPixels) : most);
 }
 
-void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels) const {
+void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels, std::span<float> light) const {
     film_.download(std::as_writable_bytes(pixels));
+    light_.download(std::as_writable_bytes(light));
 }
 
 std::vector<layout::TraceEvent> TileRenderer::readTrace() const {

@@ -62,7 +62,7 @@ class TileRenderer {
                                  const std::function<bool()> &shouldStop = {},
                                  const std::function<void(const RayCounts &)> &onPause = {});
 
-    void readFilm(std::span<layout::FilmPixel> pixels) const;
+    void readFilm(std::span<layout::FilmPixel> pixels, std::span<float> light) const;
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
 
@@ -138,6 +138,7 @@ class TileRenderer {
     ScenePlan scenePlan_;
     JobPlan plan_;
     Buffer film_;
+    Buffer light_;
     Buffer progress_;
     Buffer stacks_; ///< or finished samples, as the plan says
     Buffer trace_;

@@ -5,6 +5,7 @@
 #include "host/import/environment_file.h"
 #include "host/import/file_access.h"
 #include "host/import/scene_objects.h"
+#include "host/scene/light_groups.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
@@ -94,6 +95,14 @@ CameraPath readCameraPath(const JsonObject &object, const Camera &camera) {
     return pathThrough(keys, interpolation);
 }
 
+/// Empty without the key.
+std::string readLightGroup(const JsonObject &object) {
+    std::string name = object.text("lightGroup", "");
+    if (object.find("lightGroup") && !isLightGroupName(name))
+        object.at("lightGroup").refuse("1 to 32 letters, digits, underscores and hyphens");
+    return name;
+}
+
 Light readLight(const JsonNode &node) {
     const JsonObject object(node);
     if (const std::optional<JsonNode> type = object.find("type"); type && *type->value == "area")
@@ -123,6 +132,7 @@ Light readLight(const JsonNode &node) {
         light.direction = readDirection(object, "direction", light.direction);
         break;
     }
+    light.lightGroup = readLightGroup(object);
     return light;
 }
 
@@ -149,6 +159,7 @@ Environment readEnvironment(const JsonObject &object, const FileAccess &access, 
         static_cast<float>(object.number("scale", limits::environmentScale, environment.scale));
     environment.rotateDegrees =
         object.number("rotateDegrees", limits::rotateDegrees, environment.rotateDegrees);
+    environment.lightGroup = readLightGroup(object);
     return environment;
 }
 
@@ -218,6 +229,10 @@ void readKey(const JsonObject &object, std::string_view key, const WholeKey &who
 }
 void readKey(const JsonObject &object, std::string_view key, const FlagKey &flag, Material &material) {
     material.*flag.member = object.boolean(key, material.*flag.member);
+}
+void readKey(const JsonObject &object, std::string_view /*key*/, const GroupKey & /*group*/,
+             Material &material) {
+    material.lightGroup = readLightGroup(object);
 }
 void readKey(const JsonObject &object, std::string_view key, const SidesKey & /*sides*/, Material &material) {
     material.reflectsBehind = !object.find(key);

@@ -32,7 +32,8 @@ namespace scene_keys {
 inline constexpr auto top =
     std::to_array<std::string_view>({"$schema", "description", "camera", "background", "environment",
                                      "lights", "materials", "spheres", "shapes", "meshes", "settings"});
-inline constexpr auto environment = std::to_array<std::string_view>({"file", "scale", "rotateDegrees"});
+inline constexpr auto environment =
+    std::to_array<std::string_view>({"file", "scale", "rotateDegrees", "lightGroup"});
 inline constexpr auto camera =
     std::to_array<std::string_view>({"type", "position", "target", "direction", "up", "horizontalFov",
                                      "aperture", "focusDistance", "viewWidth", "width", "height", "path"});
@@ -40,10 +41,12 @@ inline constexpr auto cameraPath = std::to_array<std::string_view>({"interpolati
 inline constexpr auto cameraKey =
     std::to_array<std::string_view>({"frame", "position", "target", "direction", "up", "horizontalFov",
                                      "aperture", "focusDistance", "viewWidth"});
-inline constexpr auto pointLight = std::to_array<std::string_view>({"type", "position", "power"});
-inline constexpr auto spotLight =
-    std::to_array<std::string_view>({"type", "position", "power", "direction", "angle", "blend", "fade"});
-inline constexpr auto directionalLight = std::to_array<std::string_view>({"type", "direction", "irradiance"});
+inline constexpr auto pointLight =
+    std::to_array<std::string_view>({"type", "position", "power", "lightGroup"});
+inline constexpr auto spotLight = std::to_array<std::string_view>(
+    {"type", "position", "power", "direction", "angle", "blend", "fade", "lightGroup"});
+inline constexpr auto directionalLight =
+    std::to_array<std::string_view>({"type", "direction", "irradiance", "lightGroup"});
 inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});
 inline constexpr auto normalMap = std::to_array<std::string_view>({"file", "scale", "offset", "strength"});
 inline constexpr auto sphere =

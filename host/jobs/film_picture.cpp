@@ -2,6 +2,8 @@
 
 #include "host/film/film_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -36,7 +38,12 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     if (format == ImageFormat::Exr)
         std::ranges::move(viewAttributes(picture.views), std::back_inserter(all.attributes));
     all.projection = picture.projection;
-    return writeFilm(file, format, picture.film, all, picture.settings, picture.options);
+    std::vector<std::string> warnings =
+        writeFilm(file, format, picture.film, all, picture.settings, picture.options);
+    if (format != ImageFormat::Exr && !picture.film.lightPlanes.empty())
+        warnings.push_back(
+            fmt::format("'{}' has none of the layers of light: an .exr keeps them", file.path().string()));
+    return warnings;
 }
 
 } // namespace hyalite::core

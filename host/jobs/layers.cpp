@@ -106,7 +106,7 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
         if (!squares.empty()) {
             film = filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
             if (films.size() < begun.size())
-                setPixelsIn(film, squares, pixelsIn(begun[films.size()], squares));
+                setRecordsIn(film, squares, recordsIn(begun[films.size()], squares));
             task.shareOfOthers = shareOutside(scene.crop, squares);
             isFinished = finishedWork(film, squares, settings.samplesPerPixel).isComplete;
         }

@@ -7,8 +7,7 @@
 
 namespace hyalite::core {
 
-PeriodicFiles::PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files, Observer &observer)
-    : crop_(crop), observer_(observer) {
+PeriodicFiles::PeriodicFiles(std::vector<PeriodicFile> files, Observer &observer) : observer_(observer) {
     const Clock::time_point now = Clock::now();
     for (PeriodicFile &file : files) {
         const auto interval = std::chrono::duration<double>(file.intervalSeconds);
@@ -30,13 +29,10 @@ void PeriodicFiles::finish() {
         thread_.join();
 }
 
-void PeriodicFiles::take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-                         const RayCounts &rays) {
+void PeriodicFiles::take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) {
     {
         const std::lock_guard lock(mutex_);
-        if (film_.pixels.empty())
-            film_ = Film(crop_);
-        copyFilm(film_.pixels);
+        copyTo(film_);
         rays_ = rays;
         isWanted_ = false;
         isTaken_ = true;

@@ -25,8 +25,8 @@ struct PeriodicFile {
 /// the interval, the next time is skipped.
 class PeriodicFiles : public SnapshotTaker {
   public:
-    /// `crop` is that of the film. The first interval begins now. `observer` must outlive it.
-    PeriodicFiles(const Crop &crop, std::vector<PeriodicFile> files, Observer &observer);
+    /// The first interval begins now. `observer` must outlive it.
+    PeriodicFiles(std::vector<PeriodicFile> files, Observer &observer);
     /// As finish().
     ~PeriodicFiles() override;
 
@@ -36,8 +36,7 @@ class PeriodicFiles : public SnapshotTaker {
     [[nodiscard]] bool isWanted() const noexcept override {
         return isWanted_.load(std::memory_order_relaxed);
     }
-    void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-              const RayCounts &rays) override;
+    void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) override;
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -52,7 +51,6 @@ class PeriodicFiles : public SnapshotTaker {
     [[nodiscard]] Clock::time_point nextDue() const;
     void writeNow(Timed &timed, const Film &film, const RayCounts &rays);
 
-    Crop crop_;
     Observer &observer_;
     std::vector<Timed> files_; ///< touched by the writing thread alone
     Film film_{Crop{}};        ///< of the last snapshot; empty until there is one

@@ -10,6 +10,7 @@
 #include "host/jobs/layers.h"
 #include "host/jobs/periodic_files.h"
 #include "host/jobs/projection.h"
+#include "host/packing/light_planes.h"
 #include "host/scene/light_sources.h"
 
 #include <fmt/format.h>
@@ -78,6 +79,7 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     origin.projection = projectionOf(scene.loaded.scene);
     for (const Integrator view : scene.views)
         origin.layers.push_back({view, scene.packed.namesOf(view)});
+    origin.lightPlanes = lightPlaneNames(scene.packed, scene.loaded.settings);
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     return origin;
@@ -155,7 +157,7 @@ class PictureRender {
 
     FinishedPicture finish() {
         const PreparedScene &scene = session_.scene();
-        PeriodicFiles snapshots(scene.crop, periodicFiles(), session_.observer());
+        PeriodicFiles snapshots(periodicFiles(), session_.observer());
         const TimeLimit limit(request_.timeLimitSeconds);
         layers_ = renderViews(session_.backend(), session_.scene(), scene.views,
                               request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
@@ -341,7 +343,9 @@ void requireRoom(const PictureFiles &files, const PreparedScene &scene) {
     if (formatOf(files.request) == ImageFormat::Png)
         requirePngSize(files.request.output, crop.width(), crop.height());
     const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
-    requireFilmMemory(crop, (isCopied ? 2 : 1) + static_cast<unsigned>(scene.views.size()));
+    const unsigned copies = isCopied ? 2 : 1;
+    requireFilmMemory(crop, copies + static_cast<unsigned>(scene.views.size()),
+                      copies * lightPlanesOf(scene.packed, scene.loaded.settings).count());
 }
 
 PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {

@@ -34,8 +34,9 @@ ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,
     auto [a, imageA] = renderAll(*run.first);
     auto [b, imageB] = renderAll(*run.second);
     ImageComparison comparison = compareImages(imageB, imageA);
-    return {std::move(a), std::move(b), std::move(imageA.image), std::move(imageB.image),
-            std::move(comparison)};
+    const std::size_t differingLight = a.film.light.empty() ? 0 : differingPixelCount(a.film, b.film);
+    return {std::move(a),          std::move(b),  std::move(imageA.image), std::move(imageB.image),
+            std::move(comparison), differingLight};
 }
 
 glm::ivec2 worstPixel(const ComparedRenders &renders) {

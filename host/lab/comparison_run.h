@@ -36,6 +36,7 @@ struct ComparedRenders {
     Image imageA; ///< of their films
     Image imageB;
     ImageComparison comparison;
+    std::size_t differingLight = 0; ///< pixels of films with layers of light that differ in any bit
 };
 
 [[nodiscard]] ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,

@@ -105,10 +105,10 @@ FilmDifference explain(Backend &backend, const PreparedScene &scene, const Film 
     const Film wanted = twin->render(scene.packed, scene.loaded.settings, scene.crop).film;
     FilmDifference difference;
     difference.pixelCount = differingPixelCount(film, wanted);
-    const auto first = std::ranges::mismatch(film.pixels, wanted.pixels, haveEqualBits).in1;
-    if (first == film.pixels.end())
+    const std::size_t first = firstDifference(film, wanted);
+    if (first == film.pixels.size())
         return difference;
-    const auto index = static_cast<int>(first - film.pixels.begin());
+    const auto index = static_cast<int>(first);
     const glm::ivec2 pixel(scene.crop.x0 + index % scene.crop.width(),
                            scene.crop.y0 + index / scene.crop.width());
     difference.pixel = pixel;

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/packing/light_tree.h"
 #include "host/packing/texture_rows.h"
+#include "host/scene/light_groups.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -41,7 +42,7 @@ layout::EmitterRecord surfaceEmitter(std::uint32_t kind, std::size_t record,
     emitter.kind = kind;
     emitter.record = static_cast<std::uint32_t>(record);
     emitter.emission = material.emission;
-    emitter.isTwoSided = emitsBehind(material) ? 1u : 0u;
+    emitter.sidesAndGroup = (emitsBehind(material) ? 1u : 0u) | material.lightGroup << 1u;
     return emitter;
 }
 
@@ -52,8 +53,9 @@ struct Candidate {
     bool isInfinite;
 };
 
-layout::EmitterRecord lightEmitter(const layout::LightRecord &light) {
+layout::EmitterRecord lightEmitter(const layout::LightRecord &light, std::uint32_t group) {
     layout::EmitterRecord emitter{};
+    emitter.sidesAndGroup = group << 1u;
     emitter.kind = emitterKindOf(light);
     emitter.position = light.position;
     emitter.emission = light.intensity;
@@ -138,7 +140,7 @@ TreeLight treeLight(const Candidate &candidate, const PackedScene &packed, doubl
     TreeLight light;
     light.lower = emitter.position;
     light.upper = emitter.position;
-    light.isTwoSided = emitter.isTwoSided != 0;
+    light.isTwoSided = isTwoSided(emitter);
     const double sides = light.isTwoSided ? 2.0 : 1.0;
     if (emitter.kind == layout::emitterTriangle) {
         const layout::TriangleRecord &triangle = packed.triangles[emitter.record];
@@ -261,7 +263,8 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
     };
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
         const double power = mean(scene.lights[i].power);
-        const layout::EmitterRecord emitter = lightEmitter(packed.lights[i]);
+        const layout::EmitterRecord emitter =
+            lightEmitter(packed.lights[i], numberOfGroup(packed.lightGroups, scene.lights[i].lightGroup));
         if (emitter.kind != layout::emitterDirectional)
             add(emitter, power * (emitter.kind == layout::emitterSpot ? coneShare(emitter) : 1.0), 0.0);
         else if (power > 0.0)
@@ -286,6 +289,7 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
     if (isLitAround) {
         layout::EmitterRecord emitter{};
         emitter.kind = layout::emitterEnvironment;
+        emitter.sidesAndGroup = packed.frame.environmentGroup << 1u;
         candidates.push_back({emitter, 0.0, 0.0, true});
     }
 

@@ -13,6 +13,7 @@
 #include "host/packing/sheen_energy.h"
 #include "host/packing/surface_features.h"
 #include "host/packing/texture_rows.h"
+#include "host/scene/light_groups.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -290,6 +291,16 @@ void packNumbers(const Scene &scene, const std::vector<std::uint32_t> &packedMat
         packed.materials[packedMaterial[i]].number = numbered.materials[i];
 }
 
+/// The groups of what shines: before its emitters are packed.
+void packLightGroups(const Scene &scene, PackedScene &packed) {
+    packed.lightGroups = lightGroupsOf(scene);
+    const std::vector<std::uint32_t> order = materialOrder(scene.materials);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        packed.materials[i].lightGroup =
+            numberOfGroup(packed.lightGroups, scene.materials[order[i]].lightGroup);
+    packed.frame.environmentGroup = numberOfGroup(packed.lightGroups, scene.environment.lightGroup);
+}
+
 /// The tables of directional albedo, which are the first lookup rows.
 void packEnergies(const Scene &scene, PackedScene &packed) {
     if ((packed.scattering & layout::scattersAtRough) != 0) {
@@ -325,7 +336,7 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
     layout::FrameRecord seen = frame;
     seen.environmentTexels = 0; // this and the next depend on how emitters are chosen
     seen.environmentProbability = 0.0f;
-    seen.filterTexels = 0;
+    seen.filterTexels = seen.environmentGroup = 0;
     const std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)), ofArrays);
     return hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
 }
@@ -333,7 +344,7 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
 std::uint64_t PackedScene::arraysHash() const {
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials)
-        material.emitterPdf = 0.0f, material.number = 0; // likewise, and on names
+        material.emitterPdf = 0.0f, material.number = material.lightGroup = 0; // likewise, and on names
     std::vector<layout::SphereRecord> seenSpheres = spheres;
     for (layout::SphereRecord &sphere : seenSpheres)
         sphere.emitter = sphere.primitiveId = 0;
@@ -455,6 +466,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     packEnergies(scene, packed);
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     packFilter(packed);
+    packLightGroups(scene, packed);
     packEmitters(scene, isLitAround, options.lightChoice, packed);
     const bool isClosed = !isLitAround && scene.background == glm::vec3(0.0f);
     if (isClosed && packed.treeSpheres == layout::treeHasTriangles && packed.instances.empty() &&
@@ -483,6 +495,7 @@ void packLights(const Scene &scene, LightChoice choice, PackedScene &packed) {
     const bool isLitAround = packed.lighting != 0;
     addLights(scene, packed);
     packed.frame.lightCount = static_cast<std::uint32_t>(packed.lights.size());
+    packLightGroups(scene, packed);
     packEmitters(scene, isLitAround, choice, packed);
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -52,8 +53,9 @@ struct PackedScene {
     std::vector<layout::SphereRecord> loopSpheres; ///< those outside the tree
     /// All triangles, if they are few, in a closed room, with nothing else in the tree.
     std::vector<layout::TrianglePair> trianglePairs;
-    int treeDepth = 0; ///< subtrees that can wait on a traversal stack
-    SceneNames names;  ///< of the numbers of places and materials
+    int treeDepth = 0;                      ///< subtrees that can wait on a traversal stack
+    SceneNames names;                       ///< of the numbers of places and materials
+    std::vector<std::string> lightGroups{}; ///< names, by their numbers
 
     // The scene arrays, by the names that shaders/layout/buffers.h gives them.
 #define HYALITE_MEMBER(number, value, name, Record, fetch) RecordVector<layout::Record> name;

@@ -11,6 +11,7 @@
 
 #include <bit>
 #include <optional>
+#include <vector>
 
 namespace hyalite::core::reference {
 
@@ -36,6 +37,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
 
     /// Of that sample.
     [[nodiscard]] Real transparency() const { return transparency_.ofSample(); }
+    /// By planes of the film.
+    [[nodiscard]] std::vector<Vec3<Real>> light() const { return light_.planes(); }
 
   private:
     using Base = SpecularPath<Real, Counter>;
@@ -44,7 +47,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
     using Base::scatterPdf_, Base::mediaInside_, Base::counts_, Base::counter_;
     using Base::scatterSmoothDielectric, Base::traceEvent, Base::traceRay, Base::transmittance;
     using Base::scene_, Base::pixel_, Base::sampleIndex_, Base::depth_, Base::throughput_,
-        Base::transparency_;
+        Base::transparency_, Base::light_;
     using Base::vertexBits, Base::weaken;
     using typename Base::Crossing;
 
@@ -55,12 +58,14 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         return unitFloats<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
     }
 
-    void addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
+    /// Returns what the sample has gained.
+    Vec3<Real> addRadiance(const Vec3<Real> &weight, const Vec3<Real> &radiance) {
         Vec3<Real> added = withoutTiny<Real>(weight * radiance);
         if (depth_ > 1)
             added = lesser(added, Vec3<Real>(static_cast<Real>(scene_.frame.radianceLimit)));
         radiance_ = radiance_ + added;
         traceEvent(layout::traceRadiance, 0, radiance_);
+        return added;
     }
 
     /// Adds the emission of the surface that the ray has hit, with the multiple importance weight against sampling that
@@ -89,19 +94,22 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
             }
             weight = powerHeuristic(scatterPdf_, pdf);
         }
-        addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
+        const Vec3<Real> added = addRadiance(throughput_ * weight, Vec3<Real>(material.emission));
+        light_.addMet(added, layout::lightEmission, material.lightGroup);
     }
 
     /// Adds the background or the environment, which has a multiple importance weight against sampling it as a light.
     void addEnvironment(const Ray<Real> &ray) {
         if ((scene_.lighting & layout::lightsByEnvironment) == 0) {
-            addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
+            const Vec3<Real> added = addRadiance(throughput_, Vec3<Real>(scene_.frame.background));
+            light_.addMet(added, layout::lightBackground, scene_.frame.environmentGroup);
             return;
         }
         const EnvironmentLight<Real> found = environmentFrom(scene_, ray.direction);
         const Real pdf = found.pdf * static_cast<Real>(scene_.frame.environmentProbability);
         const Real weight = scatterPdf_ > 0 ? powerHeuristic(scatterPdf_, pdf) : Real(1);
-        addRadiance(throughput_ * weight, found.radiance);
+        const Vec3<Real> added = addRadiance(throughput_ * weight, found.radiance);
+        light_.addMet(added, layout::lightBackground, scene_.frame.environmentGroup);
     }
 
     /// Russian roulette: ends long paths of low throughput at random and raises the weight of the survivors. Returns
@@ -145,7 +153,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         }
         transparency_.meetSurface();
         if (showsBaseColour(scene_, material)) {
-            addRadiance(throughput_, material.albedo);
+            const Vec3<Real> added = addRadiance(throughput_, material.albedo);
+            light_.addMet(added, layout::lightEmission, material.lightGroup);
             return std::nullopt;
         }
         addEmission(ray, hit, surface, material);
@@ -205,7 +214,13 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
             const Real share = light.pdf > 0 ? powerHeuristic(light.pdf, lit.pdf) : Real(1);
             mediaInside_ = isLightBeyond ? crossing.beyond : crossing.before;
             const Vec3<Real> weight = throughput_ * (light.radiance * (lit.value * share));
-            aimShadowRay(surface, emitter, light, weight * transmittance(light.distance), primitive);
+            if (isLightThere(surface, emitter, light, primitive)) {
+                const Vec3<Real> added =
+                    addRadiance(weight * transmittance(light.distance), Vec3<Real>(Real(1)));
+                if (light_.areKept())
+                    light_.addSampled(added, diffuseShare(scene_, bsdf, wiLight, lit.value), isLightBeyond,
+                                      lightGroupOf(scene_.fetchEmitter(emitter)));
+            }
         } else {
             skipShadowRay(emitter);
         }
@@ -219,6 +234,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         scatterPdf_ = isPossible ? scattered.pdf : Real(0);
         if (!(isWindow && isBeyond))
             transparency_.endSeeingThrough();
+        if (light_.areKept())
+            light_.scatter(diffuseShare(scene_, bsdf, wi, scattered.value), isBeyond);
         if (isPossible)
             weaken(scattered.value * (Real(1) / scattered.pdf));
         return scatter(surface, direction, primitive);
@@ -239,9 +256,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         traceEvent(layout::traceVisibility, layout::visibilityUnlit, Vec3<Real>(static_cast<Real>(emitter)));
     }
 
-    /// Sends a shadow ray to what was chosen.
-    void aimShadowRay(const Surface<Real> &surface, std::uint32_t emitter, const LightSample<Real> &light,
-                      const Vec3<Real> &weight, std::uint32_t primitive) {
+    /// Sends a shadow ray to what was chosen. Returns whether it arrives.
+    [[nodiscard]] bool isLightThere(const Surface<Real> &surface, std::uint32_t emitter,
+                                    const LightSample<Real> &light, std::uint32_t primitive) {
         ++counts_.shadow;
         const Ray<Real> ray{offsetRayOrigin(scene_, surface, light.direction),
                             light.direction,
@@ -250,8 +267,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));
-        if (!isBlocked)
-            addRadiance(weight, Vec3<Real>(Real(1)));
+        return !isBlocked;
     }
 
     Vec3<Real> radiance_{Real(0)};

@@ -1,6 +1,7 @@
 #include "host/reference/renderer.h"
 
 #include "host/film/tally.h"
+#include "host/packing/light_planes.h"
 #include "host/reference/path.h"
 #include "host/reference/view.h"
 #include "host/reference/whitted.h"
@@ -12,8 +13,10 @@
 #include <cassert>
 #include <cstdint>
 #include <mutex>
+#include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace hyalite::core::reference {
 
@@ -60,12 +63,38 @@ std::uint32_t tallyPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, 
     return film.sampleCount - countBefore;
 }
 
-/// Adds samples to `film` until it has `sampleCount`, the integrator abandons one, or `isLast`, called after each,
+/// The sums of a pixel's layers of light, as FilmRecords::light has them.
+template <class Real> class LightSums {
+  public:
+    explicit LightSums(std::span<const float> light) : sums_(light.size() / 2) {
+        for (std::size_t i = 0; i < sums_.size(); ++i)
+            sums_[i] = {Real(light[i]), Real(light[sums_.size() + i])};
+    }
+
+    void add(const std::vector<Vec3<Real>> &planes) {
+        for (std::size_t i = 0; i < sums_.size(); ++i)
+            sums_[i] =
+                plus(sums_[i], withoutSubnormals<Real>(planes[i / 3][static_cast<glm::length_t>(i % 3)]));
+    }
+
+    void storeTo(std::span<float> light) const {
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            light[i] = static_cast<float>(sums_[i].value);
+            light[sums_.size() + i] = static_cast<float>(sums_[i].rest);
+        }
+    }
+
+  private:
+    std::vector<CompensatedSum<Real>> sums_;
+};
+
+/// Adds samples to `film` and `light` until it has `sampleCount`, the integrator abandons one, or `isLast`, called after each,
 /// returns true. Returns the number of added samples.
 template <class Real, class SampleIntegrator, class IsLast>
 std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel, std::uint32_t sampleCount,
-                          layout::FilmPixel &film, const IsLast &isLast) {
+                          layout::FilmPixel &film, std::span<float> light, const IsLast &isLast) {
     FilmPixel<Real> sums(film);
+    LightSums<Real> lightSums(light);
     const std::uint32_t countBefore = film.sampleCount;
     std::uint32_t finishedCount = countBefore;
     bool isStopped = false;
@@ -74,6 +103,9 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
         if (isAbandoned(integrator))
             break;
         sums = withSample(sums, radiance, transparencyOf<Real>(integrator));
+        if constexpr (requires { integrator.light(); })
+            if (!light.empty())
+                lightSums.add(integrator.light());
         ++finishedCount;
         isStopped = isLast();
     }
@@ -85,6 +117,7 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
             .transparency = static_cast<float>(sums.transparency),
             .squaresRest = glm::vec3(sums.squaresRest),
             .transparencyRest = static_cast<float>(sums.transparencyRest)};
+    lightSums.storeTo(light);
     return finishedCount - countBefore;
 }
 
@@ -106,11 +139,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
             isPaused_ = false;
             renderUntilPaused();
             if (isPaused_ && !isStopped_)
-                hooks_.snapshots->take(
-                    [this](std::span<layout::FilmPixel> copy) {
-                        std::copy(result_.film.pixels.begin(), result_.film.pixels.end(), copy.begin());
-                    },
-                    result_.rays);
+                hooks_.snapshots->take([this](Film &copy) { copy = result_.film; }, result_.rays);
         } while (isPaused_ && !isStopped_);
         return std::move(result_);
     }
@@ -156,7 +185,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                 return isToStop() || (std::is_same_v<Real, float> && isToPause());
             };
             addedSamples += tallies_ ? tallyPixel(integrator, pixel, sampleCount_, film, isLast)
-                                     : renderPixel<Real>(integrator, pixel, sampleCount_, film, isLast);
+                                     : renderPixel<Real>(integrator, pixel, sampleCount_, film,
+                                                         lightOf(static_cast<std::size_t>(i)), isLast);
             (void)isToPause();
         }
         const std::lock_guard lock(progressMutex_); // of this render alone: a callback may render, too
@@ -164,6 +194,11 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
         if (hooks_.onProgress)
             hooks_.onProgress(static_cast<double>(finishedSamples_) / static_cast<double>(pixelCount_) /
                               sampleCount_);
+    }
+
+    [[nodiscard]] std::span<float> lightOf(std::size_t pixel) {
+        const std::size_t size = result_.film.lightSize();
+        return std::span(result_.film.light).subspan(pixel * size, size);
     }
 
     [[nodiscard]] bool isFinished(std::int64_t run) const {
@@ -234,6 +269,7 @@ std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSe
 
 Result render(const PackedScene &scene, const RenderSettings &settings, Film begun, const Options &options,
               const RenderHooks &hooks) {
+    begun.keepLight(lightPlaneNames(scene, settings));
     const auto renderAs = [&]<class Real, class Counter>() {
         return withIntegrator<Real, Counter>(
             scene, settings, [&]<class MakeIntegrator>(const MakeIntegrator &makeIntegrator) {

@@ -4,6 +4,7 @@
 
 #include "host/film/ray_counts.h"
 #include "host/reference/closest_hit.h"
+#include "host/reference/light_layers.h"
 #include "host/reference/media_at_origin.h"
 #include "host/reference/transparency.h"
 
@@ -28,7 +29,7 @@ template <class Real, class Counter> class SpecularPath {
   protected:
     SpecularPath(const PackedScene &scene, const RenderSettings &settings, CarriesRadiance carriesRadiance)
         : scene_(scene, settings), carriesRadiance_(carriesRadiance == CarriesRadiance::Yes),
-          transparency_(alphaKindOf(settings)) {}
+          transparency_(alphaKindOf(settings)), light_(lightPlanesOf(scene, settings)) {}
 
     /// The primary ray of a sample, `shift` pixels away from its place.
     [[nodiscard]] Ray<Real> beginPath(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
@@ -41,6 +42,7 @@ template <class Real, class Counter> class SpecularPath {
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
         transparency_.begin();
+        light_.begin();
         depth_ = 1;
         return {primary.origin, primary.direction};
     }
@@ -89,6 +91,7 @@ template <class Real, class Counter> class SpecularPath {
         const Vec3<Real> direction = mirrorDirection(ray.direction, normal);
         scatterPdf_ = 0;
         transparency_.endSeeingThrough();
+        light_.scatter(Vec3<Real>(Real(0)), false);
         ++counts_.reflection;
         return {offsetRayOrigin(scene_, surface, direction), direction, primitive};
     }
@@ -138,6 +141,7 @@ template <class Real, class Counter> class SpecularPath {
         if (carriesRadiance_)
             throughput_ *= eta * eta;
         scatterPdf_ = 0;
+        light_.scatter(Vec3<Real>(Real(0)), true);
         ++counts_.refraction;
         isRefracted_ = true;
         return {offsetRayOrigin(scene_, surface, glass.refracted), glass.refracted, primitive};
@@ -161,6 +165,7 @@ template <class Real, class Counter> class SpecularPath {
     std::uint32_t depth_ = 0; ///< segment number of the current ray
     Vec3<Real> throughput_{Real(1)};
     Transparency<Real> transparency_;
+    LightLayers<Real> light_;
     Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
     bool isRefracted_ = false;      ///< at the last smooth glass

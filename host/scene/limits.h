@@ -50,6 +50,7 @@ inline constexpr Interval partCount{1, 65536};   ///< of a picture
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 
 inline constexpr std::size_t lightCount = std::size_t{1} << 27;
+inline constexpr std::size_t lightGroupCount = layout::maxLightGroups;
 inline constexpr std::size_t mediumCount = layout::maxMedia; ///< dielectrics, for the path integrator
 inline constexpr std::size_t environmentTexelCount = std::size_t{1} << 27; ///< pixels: 2 GiB on the device
 inline constexpr std::size_t textureBytes = std::size_t{1} << 30; ///< of all textures together, on the device

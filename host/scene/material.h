@@ -78,6 +78,7 @@ struct Material {
     int priority = 0;           ///< where glass overlaps, that of the highest is there; path only
     /// Diffuse, Principled, Gltf: radiance on the side of the normal, on both where twoSided; >= 0.
     glm::vec3 emission{0.0f};
+    std::string lightGroup{}; ///< of what it emits: isLightGroupName() (light_groups.h), or empty
     /// Conductor: real part of the refractive index, in [0, 20].
     glm::vec3 conductorIndex = metalNames[0].second.index;
     glm::vec3 conductorExtinction = metalNames[0].second.extinction; ///< and its imaginary part, in [0, 20]
@@ -147,6 +148,9 @@ struct FlagKey {
     bool Material::*member;
 };
 
+/// The name of a light group.
+struct GroupKey {};
+
 /// Whether both sides reflect and emit; without the key both reflect, and the side of the normal emits.
 struct SidesKey {};
 
@@ -156,7 +160,7 @@ struct MetalKey {};
 struct MaterialKey {
     std::string_view key; ///< in scene files and messages
     /// Its default is the member's.
-    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, SidesKey, MetalKey> value;
+    std::variant<NumberKey, ColourKey, WholeKey, FlagKey, GroupKey, SidesKey, MetalKey> value;
     std::string_view help;
 };
 
@@ -181,6 +185,7 @@ inline constexpr auto diffuse = std::to_array<MaterialKey>({
     {"emission", emission,
      "radiance on the side of the normal, on both if `twoSided`; in `whitted` it is seen, but lights "
      "nothing"},
+    {"lightGroup", GroupKey{}, "whose layer has what it emits, with `lightGroups`"},
 });
 inline constexpr auto shadowCatcher = std::to_array<MaterialKey>({
     {"albedo", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
@@ -223,6 +228,7 @@ inline constexpr auto principled = std::to_array<MaterialKey>({
      "at least 0.04 is used"},
     {"twoSided", twoSided, "as for diffuse"},
     {"emission", emission, "as for diffuse"},
+    {"lightGroup", GroupKey{}, "as for diffuse"},
 });
 inline constexpr auto gltf = std::to_array<MaterialKey>({
     {"baseColour", ColourKey{&Material::albedo, limits::fraction, &Record::albedo},
@@ -262,6 +268,7 @@ inline constexpr auto gltf = std::to_array<MaterialKey>({
      "the surface is not there where its opacity is below"},
     {"twoSided", twoSided, "as for diffuse"},
     {"emission", emission, "as for diffuse"},
+    {"lightGroup", GroupKey{}, "as for diffuse"},
 });
 
 } // namespace material_keys

@@ -55,6 +55,7 @@ struct Light {
     double angleDegrees = 30.0;           ///< Spot: from its axis to the dark; in (0, 180]
     double blend = 0.2;                   ///< Spot: share of the angle in which it fades, from 0 to 1
     SpotFade fade = SpotFade::Smooth;     ///< Spot
+    std::string lightGroup{};             ///< as Material::lightGroup
 };
 
 /// Light from all around: an image by longitude and latitude, whose middle is -z, whose top row is +y.
@@ -62,6 +63,7 @@ struct Environment {
     Image radiance;             ///< >= 0; empty: there is none
     double rotateDegrees = 0.0; ///< about +y
     float scale = 1.0f;         ///< factor on the image
+    std::string lightGroup{};   ///< as Material::lightGroup
 };
 
 struct Sphere {

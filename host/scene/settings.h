@@ -37,7 +37,9 @@ struct RenderSettings {
     bool isClearGlassTransparent = false; ///< with it: so is the background through clear glass
     /// Normal, Depth, Albedo: of what mirrors and clear glass show, as means of the image's own samples.
     bool areLayersThrough = false;
-    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
+    bool hasLightLayers = false; ///< Path: the film keeps layers of light by class, ...
+    bool hasLightGroups = false; ///< ... and by group of emitters
+    double exposureStops = 0.0;  ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;

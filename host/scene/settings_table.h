@@ -131,6 +131,16 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      "maxDepth "
      "meet first beyond",
      thatLookThrough},
+    {"lightLayers", "light-layers", FlagSetting{&RenderSettings::hasLightLayers}, Changes::Samples,
+     imageGroup,
+     "layers of an EXR that add up to the picture: emission and background as they are seen, and diffuse, "
+     "glossy and transmitted light, each direct and indirect",
+     pathOnly},
+    {"lightGroups", "light-groups", FlagSetting{&RenderSettings::hasLightGroups}, Changes::Samples,
+     imageGroup,
+     "layers of an EXR that add up to the picture: the light of each group that lights, materials and the "
+     "environment name by `lightGroup`",
+     pathOnly},
     {"exposure", "exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
      "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},

@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/scene/instances.h"
+#include "host/scene/light_groups.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
@@ -103,6 +104,8 @@ void checkKey(const Checked &checked, std::string_view key, const Ranged &value,
     checked.within(value.allowed, material.*value.member, key);
 }
 void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const FlagKey & /*value*/,
+              const Material & /*material*/) {}
+void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const GroupKey & /*value*/,
               const Material & /*material*/) {}
 void checkKey(const Checked & /*checked*/, std::string_view /*key*/, const SidesKey & /*value*/,
               const Material & /*material*/) {}
@@ -360,6 +363,7 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.atMost(limits::triangleCount, triangleCount(scene), "triangles");
     whole.atMost(limits::treeCount, scene.spheres.size() + triangleCount(scene), "spheres and triangles");
     whole.atMost(limits::instanceCount, scene.instances.size(), "instances");
+    whole.atMost(limits::lightGroupCount, lightGroupsOf(scene).size(), "light groups");
     whole.within(limits::radiance, scene.background, "background");
     checkEnvironment(scene.environment, {sourceName, "environment"});
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");

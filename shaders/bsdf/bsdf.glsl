@@ -209,3 +209,16 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
         opaque.value = opaque.value * bsdf.weight;
     return opaque;
 }
+
+// The share of `value`, which evalBsdf gives for `wi`, that is diffuse: of Lambert's lobe, of the base below plastic, or
+// of sheen. In [0, 1] for each channel.
+vec3 diffuseShare(Bsdf bsdf, vec3 wi, vec3 value) {
+    if (scattering == 0u || bsdf.kind == bsdfDiffuse || (scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
+        return vec3(1.0);
+    if (bsdf.kind != bsdfOpaque || wi.z <= 0.0)
+        return vec3(0.0);
+    float ofBase = diffuseBaseShare(bsdf, energyOf(wi.z, bsdf.roughness), wi) * bsdf.weight;
+    vec3 base = bsdf.diffuseBase * ofBase;
+    vec3 whole = greater(value, vec3(1e-30));
+    return lesser(vec3(divide(base.x, whole.x), divide(base.y, whole.y), divide(base.z, whole.z)), vec3(1.0));
+}

@@ -62,6 +62,11 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
     return bsdf;
 }
 
+// The diffuse base's part of the value for light from `wi`, without its colour. `energy` is that of wi.z.
+float diffuseBaseShare(Bsdf bsdf, Energy energy, vec3 wi) {
+    return (1.0 - energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing)) * wi.z;
+}
+
 BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
     vec3 facet = halfVector(bsdf.wo, wi);
     float cosinePdf = pdfCosine(wi.z);
@@ -75,8 +80,7 @@ BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
     if (bsdf.specularProbability < 1.0) {
         Energy energy = energyOf(wi.z, bsdf.roughness);
         float multiScatterShare = (1.0 - energy.white) * wi.z;
-        float diffuseBaseShare = (1.0 - energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing)) * wi.z;
-        value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare;
+        value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare(bsdf, energy, wi);
     }
     return BsdfEval(value, pdf);
 }

@@ -61,7 +61,9 @@ void integrate() {
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         placeSlot(slot);
         loadFilm(slot);
+        loadLightSums(slot);
         loadSlot(slot, filmSampleCount[slot]);
+        loadLight(slot);
     }
     // The same for all lanes that share a pixel.
     bool isOutOfSteps = false;
@@ -77,7 +79,9 @@ void integrate() {
     } while (isUnfinished() && !isOutOfSteps);
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
         storeFilm(slot);
+        storeLightSums(slot);
         storeSlot(slot);
+        storeLight(slot);
     }
     addProgress();
 }

@@ -28,18 +28,21 @@ vec2 lobeChoice(uint slot) {
 void beginSample(uint slot) {
     beginInMedia(slot);
     beginTransparency(slot);
+    beginLight(slot);
     path[slot].scatterPdf = 0.0;
 }
 
 void endPath(uint slot) { path[slot].stage = stageSampleDone; }
 
-void addRadiance(uint slot, vec3 weight, vec3 radiance) {
+// Returns what the sample has gained.
+vec3 addRadiance(uint slot, vec3 weight, vec3 radiance) {
     vec3 added = withoutTiny(weight * radiance);
     if (path[slot].rayDepth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
     if (!showsCost)
         path[slot].sampleRadiance = path[slot].sampleRadiance + added;
     traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
+    return added;
 }
 
 // The surface that the path was on before its ray, as the light tree sees it.
@@ -74,19 +77,22 @@ void addEmission(uint slot, Surface surface, MaterialRecord material) {
         }
         weight = powerHeuristic(path[slot].scatterPdf, pdf);
     }
-    addRadiance(slot, path[slot].throughput * weight, material.emission);
+    vec3 added = addRadiance(slot, path[slot].throughput * weight, material.emission);
+    meetLight(slot, added, lightEmission, material.lightGroup);
 }
 
 // Radiance from outside the scene, with the multiple importance weight against a light sample in that direction.
 void addEnvironment(uint slot) {
     if ((lighting & lightsByEnvironment) == 0u) {
-        addRadiance(slot, path[slot].throughput, frame.background);
+        vec3 added = addRadiance(slot, path[slot].throughput, frame.background);
+        meetLight(slot, added, lightBackground, frame.environmentGroup);
         return;
     }
     EnvironmentLight found = environmentFrom(path[slot].rayDirection);
     float pdf = found.pdf * frame.environmentProbability;
     float weight = path[slot].scatterPdf > 0.0 ? powerHeuristic(path[slot].scatterPdf, pdf) : 1.0;
-    addRadiance(slot, path[slot].throughput * weight, found.radiance);
+    vec3 added = addRadiance(slot, path[slot].throughput * weight, found.radiance);
+    meetLight(slot, added, lightBackground, frame.environmentGroup);
 }
 
 // Russian roulette: long paths with a small throughput end at random, and the others gain their weight.
@@ -120,8 +126,7 @@ MaterialRecord materialHit(uint slot, MaterialRecord material, uint textureSlots
     return hitMaterial(hitOf(slot), material, textureSlots, position);
 }
 
-// Stage: the nearest hit is known.
-void shadeHit(uint slot) {
+void shadePath(uint slot) {
     traceNearestHit(slot);
     endPath(slot);
     if (hasDielectric)
@@ -147,7 +152,8 @@ void shadeHit(uint slot) {
     if (alphaKind == alphaOfBackground)
         endSeeingThrough(slot);
     if (showsBaseColour(material)) {
-        addRadiance(slot, path[slot].throughput, material.albedo);
+        vec3 added = addRadiance(slot, path[slot].throughput, material.albedo);
+        meetLight(slot, added, lightEmission, material.lightGroup);
         return;
     }
     if (hasEmission)
@@ -176,6 +182,13 @@ void shadeHit(uint slot) {
             weaken(slot, mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal))));
         reflectRay(slot, surface, surface.normal);
     }
+}
+
+// Stage: the nearest hit is known.
+void shadeHit(uint slot) {
+    beginHitLight(slot);
+    shadePath(slot);
+    endHitLight(slot);
 }
 
 // Continues the path from a surface, in the direction that was sampled when the surface was lit.
@@ -243,6 +256,12 @@ void sampleDirectLight(uint slot) {
     bool isPossible = scattered.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
     path[slot].scatterDirection = direction;
     path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
+    if (hasLightClasses && !isLightDiffuse) {
+        aimLight(slot, diffuseShare(bsdf, wiLight, lit.value), isLightBeyond);
+        scatterLight(slot, diffuseShare(bsdf, wi, scattered.value), isBeyond);
+    } else {
+        scatterLight(slot, vec3(1.0), false);
+    }
     if (!(isWindow && isBeyond))
         endSeeingThrough(slot);
     if (hasDielectric)
@@ -258,8 +277,11 @@ void sampleDirectLight(uint slot) {
 void addLight(uint slot) {
     bool isVisible = path[slot].hitPrimitive == noPrimitive;
     traceEvent(slot, traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(path[slot].lightIndex));
-    if (isVisible)
-        addRadiance(slot, path[slot].surfaceWeight, vec3(1.0));
+    if (isVisible) {
+        vec3 added = addRadiance(slot, path[slot].surfaceWeight, vec3(1.0));
+        if (hasLightPlanes)
+            addSampledLight(slot, added, lightGroupOf(fetchEmitter(path[slot].lightIndex)));
+    }
     scatter(slot);
 }
 

@@ -28,6 +28,7 @@ void reflectRay(uint slot, Surface surface, vec3 normal) {
     vec3 origin = offsetRayOrigin(surface, direction);
     path[slot].scatterPdf = 0.0;
     endSeeingThrough(slot);
+    scatterLight(slot, vec3(0.0), false);
     rayCounts[slot].z += 1u;
     continueRay(slot, origin, direction, path[slot].hitPrimitive);
 }
@@ -78,6 +79,7 @@ bool scatterSmoothDielectric(uint slot, Surface surface, uint materialIndex) {
         path[slot].throughput *= squaredEta;
     }
     path[slot].scatterPdf = 0.0;
+    scatterLight(slot, vec3(0.0), true);
     rayCounts[slot].w += 1u;
     continueRay(slot, offsetRayOrigin(surface, glass.refracted), glass.refracted, path[slot].hitPrimitive);
     return true;

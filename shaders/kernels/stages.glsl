@@ -6,6 +6,7 @@
 #include "shaders/memory/lanes.glsl"
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/integrators/alpha.glsl"
+#include "shaders/integrators/light_layers.glsl"
 #include "shaders/memory/film.glsl"
 #include "shaders/traversal/any_hit.glsl"
 #include "shaders/traversal/traverse.glsl"

@@ -50,7 +50,8 @@ const uint bindingPending = sceneBufferCount + 3u; // maxDepth rays a slot
 const uint bindingStacks = sceneBufferCount + 4u;  // stackSize references a slot
 const uint bindingSamples = bindingStacks; // skip lists, which have no stacks: the finished samples of slots
 const uint bindingTrace = sceneBufferCount + 5u;
-const uint bindingCount = sceneBufferCount + 6u;
+const uint bindingLight = sceneBufferCount + 6u; // the film's layers of light
+const uint bindingCount = sceneBufferCount + 7u;
 
 #ifdef __cplusplus
 } // namespace hyalite::core::layout

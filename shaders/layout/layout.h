@@ -249,8 +249,8 @@ struct MaterialRecord {
     float alphaCutoff; // the surface is not there where its opacity is below; or alphaBlended
     float opacity;     // a factor on those of textures and vertices
     float clearcoatNormalStrength;
+    uint lightGroup; // of what it emits: among the layers of light
     uint pad1;
-    uint pad2;
 };
 
 // Flags of MaterialRecord::kindAndSides.
@@ -458,10 +458,18 @@ struct EmitterRecord {
     uint record;     // index among the sphere or the triangle records
     // of a triangle or a sphere, per unit of area, and in the light tree if it is chosen; of a spot its falloffScale
     float pdf;
-    uint isTwoSided;
+    uint sidesAndGroup; // see isTwoSided, lightGroupOf
     vec3 axis;         // of a spot or a directional light
     float cosineOuter; // of a spot
 };
+
+HYALITE_INLINE bool isTwoSided(EmitterRecord emitter) {
+    return (emitter.sidesAndGroup & 1u) != 0u;
+}
+
+HYALITE_INLINE uint lightGroupOf(EmitterRecord emitter) {
+    return emitter.sidesAndGroup >> 1u;
+}
 
 const uint noEmitter = 0x07FFFFFFu;
 
@@ -566,8 +574,8 @@ struct FrameRecord {
     uint sheenTexels;     // the first one
     uint mediaAtEye;      // the glass around the eye (shaders/bsdf/media.glsl)
     uint mediumAtEye;     // the one that is there, or noMaterial: kernels do not branch on uniform values
+    uint environmentGroup; // of light: of the environment, or the background
     uint pad1;
-    uint pad2;
 };
 
 // ---- Dispatch constants
@@ -618,6 +626,22 @@ struct FilmPixel {
 const uint tallyPairs = 8u;
 const uint tallyOthers = 1u;
 const uint tallyNumbers = tallyPairs - 1u; // that a pixel keeps apart
+
+// ---- Layers of light: the radiance of samples by the way that it came, and by the emitters that it comes from
+
+const uint lightEmission = 0u;   // seen as it is
+const uint lightBackground = 1u; // likewise
+const uint lightDiffuseDirect = 2u; // by the first surface that scatters: from an emitter, or indirectly
+const uint lightDiffuseIndirect = 3u;
+const uint lightGlossyDirect = 4u;
+const uint lightGlossyIndirect = 5u;
+const uint lightTransmissionDirect = 6u;
+const uint lightTransmissionIndirect = 7u;
+const uint lightClassCount = 8u;
+
+const uint lightWordsPerPlane = 6u; // of a pixel: three sums of samples, three rests
+const uint maxLightGroups = 16u;
+const uint lightStateWords = 23u; // of a path that waits, beside three for each group
 
 // A sample that waits to be added to the film: two records where its transparency is wanted, the second one with that
 // as `radiance.x`.
@@ -788,7 +812,9 @@ const uint constantAlpha = 32u;            // which background is transparent: a
 const uint constantPlaceCount = 33u;
 const uint constantTallies = 34u; // the film counts samples by their numbers
 const uint constantLooksThrough = 35u; // views: through mirrors and glass
-const uint constantCount = 36u;
+const uint constantLightClasses = 36u; // bits 1 << light...: planes of the film
+const uint constantLightGroups = 37u;  // how many groups have planes, behind those of classes
+const uint constantCount = 38u;
 
 const uint broadcastLanes = 16u;
 
@@ -815,7 +841,7 @@ static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));
 static_assert(firstCoordinateRow == linearTableRow + rowsPerTable &&
               linearTableRow == srgbTableRow + rowsPerTable);
-static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, isTwoSided) == 44);
+static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, sidesAndGroup) == 44);
 static_assert(sizeof(LightNode) == 48 && offsetof(LightNode, reference) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 208 && offsetof(FrameRecord, boundsUpper) == 96);

@@ -69,7 +69,7 @@ LightSample sampleTriangleLight(EmitterRecord emitter, float areaPdf, vec3 posit
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
     float facing = -dotProduct(direction, surface.geometricNormal);
-    float cosine = emitter.isTwoSided != 0u ? abs(facing) : facing;
+    float cosine = isTwoSided(emitter) ? abs(facing) : facing;
     float pdf = solidAnglePdf(areaPdf, distance, cosine);
     bool isSeen = cosine > 0.0 && distance > 0.0;
     vec3 emission = emitter.emission;
@@ -96,7 +96,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, float chance, float areaPdf
         float hitDistance = intersectSphere(position, direction, shape, false);
         distance = hitDistance > 0.0 ? hitDistance : centreDistance; // rounding moved the direction past the rim
         pdf = chance * pdfCone(height);
-        isSeen = normalSignOf(sphere) > 0.0 || emitter.isTwoSided != 0u;
+        isSeen = normalSignOf(sphere) > 0.0 || isTwoSided(emitter);
     } else {
         vec3 outward = sampleSphere(u);
         vec3 toLight = toCentre + outward * sphere.radius;
@@ -104,7 +104,7 @@ LightSample sampleSphereLight(EmitterRecord emitter, float chance, float areaPdf
         direction = toLight * divide(1.0, distance);
         float cosine = dotProduct(direction, outward);
         pdf = solidAnglePdf(areaPdf, distance, cosine);
-        isSeen = cosine > 0.0 && distance > 0.0 && (normalSignOf(sphere) < 0.0 || emitter.isTwoSided != 0u);
+        isSeen = cosine > 0.0 && distance > 0.0 && (normalSignOf(sphere) < 0.0 || isTwoSided(emitter));
     }
     vec3 emission = emitter.emission;
     if ((texturing & texturesEmission) != 0u)

@@ -40,6 +40,8 @@ layout(constant_id = constantPathRegeneration) const bool regeneratesPaths = fal
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
 layout(constant_id = constantPlaceCount) const uint placeCount = 1u;
 layout(constant_id = constantTallies) const bool tallies = false;
+layout(constant_id = constantLightClasses) const uint lightClasses = 0u;
+layout(constant_id = constantLightGroups) const uint lightGroups = 0u;
 layout(constant_id = constantHasPairs) const bool hasPairs = false;
 layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 

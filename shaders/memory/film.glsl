@@ -6,7 +6,11 @@
 //
 // A film that tallies has counts of samples by their numbers instead (layout.h), which stay in the buffer.
 
+//
+// The sums of layers of light are shared likewise: number 3 p + c is that of channel c of plane p.
+
 layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
+layout(set = 0, binding = bindingLight, std430) buffer LightBuffer { float lightWords[]; };
 
 const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
@@ -14,12 +18,18 @@ const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;
 const uint transparencySum = 7u;
 
+const uint lightSums = 3u * lightPlanes;
+
 CompensatedSum filmSum[RAYS][filmSums]; // at each number's multiple of `samplesInFlight`
 uint filmSampleCount[RAYS];             // the same in all slots of a pixel
+CompensatedSum lightSum[RAYS][3u * lightPlanesOrOne]; // at each number's multiple of `samplesInFlight`
 
-// The word of a sum in the film; of another pixel's, if the slot is not used.
+// The slot's pixel of the film; another one, if it is not used.
+uint filmPlace(uint slot) { return isSlotUsed[slot] ? filmIndex[slot] : 0u; }
+
+// The word of a sum in the film.
 uint filmWord(uint slot, uint number) {
-    return (isSlotUsed[slot] ? filmIndex[slot] : 0u) * filmPixelWords + number + (number & 4u);
+    return filmPlace(slot) * filmPixelWords + number + (number & 4u);
 }
 
 // Counts a sample of the pixel by its number: see tallyPairs. Lanes that do not take part change nothing.
@@ -87,6 +97,51 @@ void storeFilm(uint slot) {
     }
 }
 
+// The word of a sum of light in the film, whose rest is `lightSums` behind; the last one for numbers beyond it.
+uint lightWord(uint slot, uint number) {
+    return filmPlace(slot) * 2u * lightSums + min(number, lightSums - 1u);
+}
+
+void loadLightSums(uint slot) {
+    if (!hasLightPlanes)
+        return;
+    [[unroll]] for (uint first = 0u; first < lightSums; first += samplesInFlight) {
+        uint word = lightWord(slot, first + sampleLane(slot));
+        lightSum[slot][first] = CompensatedSum(lightWords[word], lightWords[word + lightSums]);
+    }
+}
+
+void storeLightSums(uint slot) {
+    if (!hasLightPlanes)
+        return;
+    [[unroll]] for (uint first = 0u; first < lightSums; first += samplesInFlight) {
+        uint number = first + sampleLane(slot);
+        uint word = lightWord(slot, number);
+        if (isSlotUsed[slot] && number < lightSums) {
+            lightWords[word] = lightSum[slot][first].value;
+            lightWords[word + lightSums] = lightSum[slot][first].rest;
+        }
+    }
+}
+
+// Adds the light of the samples in flight: each slot those sums that it keeps.
+void addLightSums(uint slot) {
+    vec3 planes[lightPlanesOrOne];
+    planesOfSample(slot, planes);
+    [[unroll]] for (uint first = 0u; first < lightSums; first += samplesInFlight) {
+        uint own[maxSamplesInFlight];
+        [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane) {
+            uint number = min(first + lane, lightSums - 1u);
+            uint found[maxSamplesInFlight];
+            exchangeInPixel(floatBitsToUint(planes[number / 3u][number % 3u]), found);
+            [[unroll]] for (uint other = 0u; other < samplesInFlight; ++other)
+                own[other] = sampleLane(slot) == lane ? found[other] : own[other];
+        }
+        [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
+            lightSum[slot][first] = plus(lightSum[slot][first], withoutSubnormals(uintBitsToFloat(own[lane])));
+    }
+}
+
 // Adds the samples in flight. Slots without a sample add 0, which changes no bit.
 void addSamples(uint slot) {
     if (tallies) {
@@ -122,6 +177,8 @@ void addRoundToFilm(uint slot) {
         return;
     uint first = path[slot].sampleIndex - sampleLane(slot);
     addSamples(slot);
+    if (hasLightPlanes)
+        addLightSums(slot);
     filmSampleCount[slot] += min(samplesInFlight, dispatch.sampleEnd - first);
     if (path[slot].sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;

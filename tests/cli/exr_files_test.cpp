@@ -151,7 +151,8 @@ worldToNDC (type m44f):
         "pixels "
         "scene sceneHash settings.alpha settings.alphaThroughGlass settings.bvh settings.clamp "
         "settings.exposure settings.filter settings.integrator "
-        "settings.layersThrough settings.leafSize settings.lightChoice settings.maxDepth "
+        "settings.layersThrough settings.leafSize settings.lightChoice settings.lightGroups "
+        "settings.lightLayers settings.maxDepth "
         "settings.occlusionDistance "
         "settings.sampler "
         "settings.seed settings.spp software triangles type ");

@@ -386,6 +386,7 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"exposure", 2.0},         {"occlusionDistance", 1e15},
                                 {"filter", "box"},         {"lightChoice", "auto"},
                                 {"alpha", false},          {"alphaThroughGlass", false},
+                                {"lightLayers", false},    {"lightGroups", false},
                                 {"layersThrough", false}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden =
@@ -412,6 +413,8 @@ TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
                                 {"lightChoice", "auto"},
                                 {"alpha", false},
                                 {"alphaThroughGlass", false},
+                                {"lightLayers", false},
+                                {"lightGroups", false},
                                 {"layersThrough", false}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});

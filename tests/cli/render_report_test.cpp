@@ -47,7 +47,8 @@ TEST_F(RenderReport, HasAllItsKeys) {
         EXPECT_EQ(keysOf(report.at("settings")),
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
                                          "leafSize", "sampler", "filter", "seed", "clamp", "alpha",
-                                         "alphaThroughGlass", "layersThrough", "exposure", "lightChoice"}));
+                                         "alphaThroughGlass", "layersThrough", "lightLayers", "lightGroups",
+                                         "exposure", "lightChoice"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),

@@ -237,12 +237,10 @@ TEST_F(SharedBackends, GiveSnapshotsThatGoOn) {
     class Keeper : public SnapshotTaker {
       public:
         [[nodiscard]] bool isWanted() const noexcept override { return true; }
-        void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-                  const RayCounts &rays) override {
+        void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) override {
             if (++count != 4)
                 return;
-            film.emplace(Crop{0, 120, 0, 100});
-            copyFilm(film->pixels);
+            copyTo(film.emplace(Crop{}));
             raysThen = rays;
         }
         int count = 0;

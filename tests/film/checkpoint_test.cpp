@@ -224,16 +224,16 @@ TEST_F(CheckpointTest, APartHasItsOwnPixelsAndLayersOnly) {
         EXPECT_EQ(file.origin, "made here");
         EXPECT_EQ(file.samplesPerPixel, 4u);
         EXPECT_EQ(file.rays, rays);
-        EXPECT_EQ(file.pixels.size(), partition.pixelCountOf(index));
+        EXPECT_EQ(file.film.pixels.size(), partition.pixelCountOf(index));
         ASSERT_EQ(file.layers.size(), 1u);
-        EXPECT_EQ(file.layers[0][7].sum, -file.pixels[7].sum);
+        EXPECT_EQ(file.layers[0].pixels[7].sum, -file.film.pixels[7].sum);
         // What goes on has the pixels of others as finished.
         const Checkpoint resumed = readCheckpoint(path, identity, part);
-        const std::vector<layout::FilmPixel> own = pixelsIn(film, partition.squaresOf(index));
-        const std::vector<layout::FilmPixel> there = pixelsIn(resumed.film, partition.squaresOf(index));
-        EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(own)), std::as_bytes(std::span(there))));
+        const FilmRecords own = recordsIn(film, partition.squaresOf(index));
+        const FilmRecords there = recordsIn(resumed.film, partition.squaresOf(index));
+        EXPECT_EQ(firstDifference(own, there), own.pixels.size());
         EXPECT_EQ(std::ranges::count(resumed.film.pixels, 4u, &layout::FilmPixel::sampleCount),
-                  std::ssize(film.pixels) - std::ssize(own));
+                  std::ssize(film.pixels) - std::ssize(own.pixels));
     }
     EXPECT_THROW((void)readCheckpoint(path, identity, {crop, {2, 3}, 4, {}}), Error);
 }

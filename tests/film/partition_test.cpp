@@ -77,7 +77,7 @@ TEST(Partition, PixelsComeBackToTheirPlaces) {
         film.pixels[i].sum.x = static_cast<float>(i);
     Film copy(crop);
     for (std::uint32_t part = 1; part <= 5; ++part)
-        setPixelsIn(copy, partition.squaresOf(part), pixelsIn(film, partition.squaresOf(part)));
+        setRecordsIn(copy, partition.squaresOf(part), recordsIn(film, partition.squaresOf(part)));
     EXPECT_EQ(
         std::memcmp(copy.pixels.data(), film.pixels.data(), film.pixels.size() * sizeof(layout::FilmPixel)),
         0);

@@ -21,21 +21,19 @@ struct Part {
 /// Keeps every `stride`-th copy that there could be.
 class Collector : public SnapshotTaker {
   public:
-    explicit Collector(const Crop &crop, int stride = 1) : crop_(crop), stride_(stride) {}
+    explicit Collector(int stride = 1) : stride_(stride) {}
     [[nodiscard]] bool isWanted() const noexcept override { return parts.size() < maxParts; }
-    void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-              const RayCounts &rays) override {
+    void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) override {
         if (count_++ % stride_ != 0)
             return;
-        parts.push_back({Film(crop_), rays});
-        copyFilm(parts.back().film.pixels);
+        parts.push_back({Film(Crop{}), rays});
+        copyTo(parts.back().film);
     }
 
     std::vector<Part> parts;
 
   private:
     static constexpr std::size_t maxParts = 12;
-    Crop crop_;
     int stride_;
     int count_ = 0;
 };
@@ -71,7 +69,7 @@ std::uint64_t sampleCount(const Film &film) {
 
 TEST_F(Continuations, OfTheReferenceGoOnAnywhere) {
     const reference::Result whole = onCpu(crop);
-    Collector collector(crop);
+    Collector collector;
     EXPECT_EQ(differingPixels(onCpu(crop, 2, &collector).film, whole.film), 0u) << "a copy changes nothing";
     ASSERT_EQ(collector.parts.size(), 12u);
     EXPECT_LT(sampleCount(collector.parts[0].film), 40u * 24u) << "it is asked for early";
@@ -89,7 +87,7 @@ TEST_F(Continuations, OfADeviceGoOnAnywhere) {
     const reference::Result whole = onCpu(crop);
     for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
         for (const std::uint32_t steps : {0u, 9u}) {
-            Collector collector(crop, steps == 0 ? 1 : 5);
+            Collector collector(steps == 0 ? 1 : 5);
             const gpu::RenderConfig config{
                 .tileWidth = 16, .tileHeight = 16, .steps = steps, .traversal = traversal};
             EXPECT_EQ(differingPixels(onDevice(crop, config, &collector).film, whole.film), 0u);
@@ -108,7 +106,7 @@ TEST_F(Continuations, OfABandedFilmHaveAllBands) {
     gpu::DeviceInfo device = testing::testDevice();
     device.maxStorageBufferBytes = 32 * 1024;
     gpu::Renderer renderer(device, {.tileWidth = 8, .tileHeight = 8, .samplesInFlight = 1});
-    Collector collector(crop, 3);
+    Collector collector(3);
     const auto render = [&](Film begun, SnapshotTaker *snapshots = nullptr) {
         return renderer.render(packed, scene.settings, std::move(begun), {.snapshots = snapshots});
     };
@@ -133,7 +131,7 @@ TEST_F(Continuations, OfTheOracleAreTakenBetweenPixels) {
     reference::Options options;
     options.precision = reference::Precision::Float64;
     const reference::Result whole = reference::render(packed, scene.settings, crop, options);
-    Collector collector(crop);
+    Collector collector;
     EXPECT_EQ(differingPixels(
                   reference::render(packed, scene.settings, crop, options, {.snapshots = &collector}).film,
                   whole.film),

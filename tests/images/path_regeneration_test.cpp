@@ -17,18 +17,17 @@ using testing::differingPixels;
 /// A film of some samples, from one copy of it on.
 class OneCopy : public SnapshotTaker {
   public:
-    OneCopy(const Crop &crop, int wanted) : film(crop), wanted_(wanted) {}
+    explicit OneCopy(int wanted) : wanted_(wanted) {}
     [[nodiscard]] bool isWanted() const noexcept override { return count_ <= wanted_; }
-    void take(const std::function<void(std::span<layout::FilmPixel>)> &copyFilm,
-              const RayCounts &raysSoFar) override {
+    void take(const std::function<void(Film &)> &copyTo, const RayCounts &raysSoFar) override {
         if (count_++ != wanted_)
             return;
-        copyFilm(film.pixels);
+        copyTo(film);
         rays = raysSoFar;
         isTaken = true;
     }
 
-    Film film;
+    Film film{Crop{}};
     RayCounts rays;
     bool isTaken = false;
 
@@ -79,7 +78,7 @@ TEST_P(PathRegeneration, GoOnFromAnyFilm) {
     const gpu::RenderConfig config{
         .tileWidth = 16, .tileHeight = 16, .steps = 100, .traversal = gpu::Traversal::SkipList};
     for (const int copy : {0, 3, 10}) {
-        OneCopy part(crop, copy);
+        OneCopy part(copy);
         gpu::Renderer &renderer = testing::rendererBy(config);
         (void)renderer.render(packed, scene.settings, crop, {.snapshots = &part});
         ASSERT_TRUE(part.isTaken);

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cassert>
-#include <cstring>
 
 namespace hyalite::core::testing {
 
@@ -79,10 +78,7 @@ reference::Result renderOnCpu(const TestScene &scene, reference::Precision preci
 
 std::size_t differingPixels(const Film &a, const Film &b) {
     assert(a.pixels.size() == b.pixels.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        count += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(a.pixels[i])) != 0 ? 1u : 0u;
-    return count;
+    return differingPixelCount(a, b);
 }
 
 } // namespace hyalite::core::testing

@@ -46,7 +46,7 @@ namespace hyalite::core::testing {
                                             reference::Precision precision = reference::Precision::Float32,
                                             std::size_t maxDecoded = maxDecodedBytes);
 
-/// How many film pixels differ in any bit of their sums or in their counts.
+/// How many film pixels differ in any bit of their sums, layers of light included, or in their counts.
 [[nodiscard]] std::size_t differingPixels(const Film &a, const Film &b);
 
 } // namespace hyalite::core::testing

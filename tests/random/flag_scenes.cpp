@@ -1,5 +1,6 @@
 #include "tests/random/flag_scenes.h"
 
+#include "host/packing/light_planes.h"
 #include "host/scene/instances.h"
 #include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
@@ -384,6 +385,20 @@ void addSettings(Rows &rows) {
     const RenderSettings settings = mirror.settings;
     rows.value("constantLooksThrough", 1, std::move(mirror),
                [settings](const PackedScene &) { return looksThrough(settings.integrator, settings); });
+    TestScene layered = base(); // a matt square with a light, before a background
+    layered.lights = {light(LightKind::Point)};
+    layered.lights[0].lightGroup = "key";
+    layered.settings.hasLightLayers = true;
+    layered.settings.hasLightGroups = true;
+    const auto planes = [settings = layered.settings](const PackedScene &packed) {
+        return lightPlanesOf(packed, settings);
+    };
+    constexpr std::uint32_t classes =
+        1u << layout::lightBackground | 1u << layout::lightDiffuseDirect | 1u << layout::lightDiffuseIndirect;
+    rows.value("constantLightClasses", classes, layered,
+               [planes](const PackedScene &packed) { return planes(packed).classes; });
+    rows.value("constantLightGroups", 2, layered,
+               [planes](const PackedScene &packed) { return planes(packed).groups; });
 }
 
 } // namespace

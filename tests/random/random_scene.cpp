@@ -153,6 +153,7 @@ class SceneDrawer {
     json drawKey(const ColourKey &key) { return draws_.colour(key.allowed); }
     json drawKey(const WholeKey &key) { return static_cast<int>(std::round(draws_.number(key.allowed))); }
     json drawKey(const FlagKey &) { return draws_.chance(0.5); }
+    json drawKey(const GroupKey &) { return draws_.chance(0.5) ? "a" : "b"; }
     json drawKey(const SidesKey &) { return draws_.chance(0.5); }
     json drawKey(const MetalKey &) { return draws_.oneOf(metalNames).first; }
 

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace hyalite::core::testing {
 namespace {
@@ -66,7 +65,7 @@ std::optional<Fault> difference(const Film &film, const RayCounts &rays, const s
     std::size_t count = 0;
     std::size_t first = 0;
     for (std::size_t i = film.pixels.size(); i-- > 0;)
-        if (std::memcmp(&film.pixels[i], &cpu.film.pixels[i], sizeof(film.pixels[i])) != 0) {
+        if (!haveEqualBits(film, cpu.film, i)) {
             ++count;
             first = i;
         }

@@ -47,7 +47,7 @@ TEST(FilmSums, DoNotChangeByBlackSamples) {
             sums, glm::vec3(0.1f * static_cast<float>(i), 1e9f / static_cast<float>(i + 1), 3.0f), 0.0f);
         const layout::FilmPixel before = pixelOf(sums, 1);
         sums = withSample<float>(sums, glm::vec3(0.0f), 0.0f);
-        EXPECT_TRUE(haveEqualBits(before, pixelOf(sums, 1))) << i;
+        EXPECT_TRUE(haveEqualBits({{before}}, {{pixelOf(sums, 1)}}, 0)) << i;
     }
 }
 

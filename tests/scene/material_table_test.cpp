@@ -1,4 +1,5 @@
 // The tables of materials, and what is made from them: the schema for editors and the tables of documents.
+#include "host/scene/light_groups.h"
 #include "host/scene/material.h"
 #include "tests/fixtures/made_text.h"
 
@@ -44,6 +45,7 @@ std::string allowedText(const NumberKey &key) { return "number " + key.allowed.t
 std::string allowedText(const ColourKey &key) { return "colour " + key.allowed.text(); }
 std::string allowedText(const WholeKey &key) { return "whole number " + key.allowed.text(); }
 std::string allowedText(const FlagKey & /*key*/) { return "boolean"; }
+std::string allowedText(const GroupKey & /*key*/) { return "1 to 32 letters, digits, `_` and `-`"; }
 std::string allowedText(const SidesKey & /*key*/) { return "boolean"; }
 std::string allowedText(const MetalKey & /*key*/) {
     std::vector<std::string> names;
@@ -63,6 +65,9 @@ std::string defaultText(const WholeKey &key, const Material &material) {
 }
 std::string defaultText(const FlagKey &key, const Material &material) {
     return material.*key.member ? "true" : "false";
+}
+std::string defaultText(const GroupKey & /*key*/, const Material & /*material*/) {
+    return fmt::format("\"{}\"", defaultLightGroup);
 }
 std::string defaultText(const SidesKey & /*key*/, const Material & /*material*/) { return "neither"; }
 std::string defaultText(const MetalKey & /*key*/, const Material & /*material*/) {
@@ -97,6 +102,11 @@ void addSchema(Json &schema, const WholeKey &key, const Material &material) {
 void addSchema(Json &schema, const FlagKey &key, const Material &material) {
     schema["type"] = "boolean";
     schema["default"] = material.*key.member;
+}
+void addSchema(Json &schema, const GroupKey & /*key*/, const Material & /*material*/) {
+    schema["type"] = "string";
+    schema["pattern"] = "^[A-Za-z0-9_-]{1,32}$";
+    schema["default"] = defaultLightGroup;
 }
 void addSchema(Json &schema, const SidesKey & /*key*/, const Material & /*material*/) {
     schema["type"] = "boolean";
