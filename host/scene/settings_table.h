@@ -126,10 +126,8 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
     {"layersThrough", "layers-through", FlagSetting{&RenderSettings::areLayersThrough}, Changes::Samples,
      imageGroup,
      "layers and pictures of normals, depths and albedos look through mirrors, and through metal and glass "
-     "of a "
-     "roughness up to 0.1, as denoisers want them: means over the image's samples of what paths up to "
-     "maxDepth "
-     "meet first beyond",
+     "of a roughness up to 0.1, as denoisers want them: means over the image's samples of what paths up to "
+     "maxDepth meet first beyond",
      thatLookThrough},
     {"lightLayers", "light-layers", FlagSetting{&RenderSettings::hasLightLayers}, Changes::Samples,
      imageGroup,

@@ -121,13 +121,21 @@ void scatterThinGlass(uint slot, Surface surface, MaterialRecord material) {
     continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
 }
 
+// Whether the material may be looked through with its textures, which only take from metal and glass: before they are
+// looked up. Rough glass may have its own index around it.
+bool mayBeLookedThrough(MaterialRecord material) {
+    if (material.textures != 0u && isTextured(material.textures, slotRoughness))
+        material.alpha = clearAlpha;
+    return isGlass(material) || isLookedThrough(material);
+}
+
 // Sends the ray on, and returns true, if the surface is looked through.
 bool lookThrough(uint slot, Surface surface, uint materialIndex) {
-    if (path[slot].rayDepth >= frame.maxDepth)
+    MaterialRecord material = fetchMaterial(materialIndex);
+    if (path[slot].rayDepth >= frame.maxDepth || !mayBeLookedThrough(material))
         return false;
     stepsTaken += uint(bitCount(texturesOfClearness & texturing));
-    MaterialRecord material =
-        hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesOfClearness, surface.position);
+    material = hitMaterial(hitOf(slot), material, texturesOfClearness, surface.position);
     vec3 direction = path[slot].rayDirection;
     bool isBehind = dotProduct(direction, surface.geometricNormal) > 0.0;
     bool isClear = isSpecularHere(slot, material, materialIndex, !isBehind) || isLookedThrough(material);

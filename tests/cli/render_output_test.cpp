@@ -155,14 +155,15 @@ TEST_F(RenderOutput, LayersLookThroughMirrors) {
             EXPECT_EQ(pixel, glm::vec3(0.2f, 0.5f, 0.7f));
         for (const glm::vec3 &pixel : pixelsOf("a.exr", "depth"))
             EXPECT_NEAR(pixel.x, 8.0f, 1e-5f);
-        for (const float z : channelsOf(folder / "a.exr").at("normal.Z"))
+        const auto channels = channelsOf(folder / "a.exr");
+        for (const float z : channels.at("normal.Z"))
             EXPECT_NEAR(z, -1.0f, 1e-6f) << "towards the mirror";
     }
     ASSERT_EQ(run("render mirror.json -o b.exr --layers-through --max-depth 1" + small).exitCode, 0);
     for (const glm::vec3 &pixel : pixelsOf("b.exr", "albedo"))
         EXPECT_EQ(pixel, glm::vec3(1.0f)) << "of the mirror, where paths end";
     expectFailure("render mirror.json -o a.exr --layers-through --layers id", 2,
-                  {"--layers-through has no effect", "normal, depth, albedo"});
+                  {"--layers-through: has no effect", "normal, depth, albedo"});
     ASSERT_EQ(run("render mirror.json -o c.pfm --integrator albedo --layers-through --max-depth 2 --spp 1 "
                   "--width 2 --height 2 --device cpu")
                   .exitCode,
