@@ -92,7 +92,7 @@ TEST_F(LesserDevices, AreRefusedByWhatTheyLack) {
         std::vector<std::string> parts;
     };
     const std::vector<Refusal> refusals{
-        {"few-images,few-storage-buffers", "", 4, {"allows 8 storage buffers in a kernel, 18 are needed"}},
+        {"few-images,few-storage-buffers", "", 4, {"allows 8 storage buffers in a kernel, 19 are needed"}},
         {"vulkan-1.0", "", 4, {"offers Vulkan 1.0", "1.1 is needed"}},
         {"no-subgroups", " --kernel skip-list", 5, {"no subgroup shuffles and sums", "leave out --kernel"}},
         {"few-images",

@@ -116,6 +116,7 @@ TEST(Specialise, EvaluatesOperationsOnConstants) {
         %product = OpSpecConstantOp %uint IMul %seven %c3
         %both = OpSpecConstantOp %uint BitwiseAnd %seven %c4
         %any = OpSpecConstantOp %uint BitwiseOr %seven %c8
+        %half = OpSpecConstantOp %uint ShiftRightLogical %seven %c1
         %complement = OpSpecConstantOp %uint Not %seven
         %equal = OpSpecConstantOp %bool IEqual %sum %c9
         %less = OpSpecConstantOp %bool ULessThan %difference %c1
@@ -136,7 +137,7 @@ TEST(Specialise, EvaluatesOperationsOnConstants) {
     )";
     std::string body;
     for (const char *name :
-         {"sum", "difference", "product", "both", "any", "complement", "a", "b", "c", "d", "shifted"})
+         {"sum", "difference", "product", "both", "any", "half", "complement", "a", "b", "c", "d", "shifted"})
         body += fmt::format("OpStore %word %{}\n", name);
     const std::string composites = R"(
         %pair = OpTypeVector %uint 2
@@ -144,7 +145,7 @@ TEST(Specialise, EvaluatesOperationsOnConstants) {
         %shiftedToo = OpSpecConstantComposite %pair %seven %shifted
     )";
     const Words words = specialised(moduleWith(body + "OpReturn", declarations + composites));
-    EXPECT_EQ(storesOf(words), "9 4294967290 21 4 15 4294967288 2 3 6 8 ? ");
+    EXPECT_EQ(storesOf(words), "9 4294967290 21 4 15 3 4294967288 2 3 6 8 ? ");
     EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantOp), 1u) << "what it does not know is left to the driver";
     EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantComposite), 1u) << "and what is made of that";
     EXPECT_EQ(countOf(words, spv::Op::OpConstantComposite), 1u);

@@ -31,6 +31,8 @@ SpirvValue evaluate(spv::Op opcode, const std::array<SpirvValue, 3> &operands) {
         return x * y;
     case spv::Op::OpUDiv:
         return y != 0 ? x / y : 0; // undefined in SPIR-V
+    case spv::Op::OpShiftRightLogical:
+        return y < 32 ? x >> y : 0; // likewise
     case spv::Op::OpBitwiseAnd:
         return x & y;
     case spv::Op::OpBitwiseOr:
