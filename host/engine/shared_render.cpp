@@ -144,7 +144,6 @@ class SharedRender {
         {
             const std::scoped_lock lock(mutex_);
             static_cast<FilmRecords &>(begun) = recordsIn(film_, std::span(&tile, 1));
-            begun.lightPlanes = film_.lightPlanes;
             samplesBefore = samplesIn(begun);
             worker.currentSamples = static_cast<double>(samplesBefore);
             finishedSamples_ -= worker.currentSamples;

@@ -100,13 +100,9 @@ TEST_P(Alpha, HasTheSameBitsOnTheDevice) {
             << gpu::kernelName(config);
     if (!GetParam().isCutShort && !testing::isTestingAll())
         return;
-    // Samples that wait for earlier ones, and such as no dispatch has the time for.
-    const gpu::RenderConfig cut{.tileWidth = 8,
-                                .tileHeight = 16,
-                                .steps = 60,
-                                .samplesInFlight = 4,
-                                .traversal = gpu::Traversal::SkipList};
-    EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, packed, cut).film, wanted), 0u);
+    EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, packed, testing::cutShortKernel()).film,
+                                       wanted),
+              0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(

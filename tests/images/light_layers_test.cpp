@@ -147,13 +147,9 @@ TEST_P(LightLayers, HaveTheSameBitsOnTheDevice) {
     for (const gpu::RenderConfig &config : testing::kernelsInTurn(GetParam().turn))
         EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, packed, config).film, wanted), 0u)
             << gpu::kernelName(config);
-    // Samples that wait for earlier ones, and such as no dispatch has the time for.
-    const gpu::RenderConfig cut{.tileWidth = 8,
-                                .tileHeight = 16,
-                                .steps = 60,
-                                .samplesInFlight = 4,
-                                .traversal = gpu::Traversal::SkipList};
-    EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, packed, cut).film, wanted), 0u);
+    EXPECT_EQ(testing::differingPixels(testing::renderOnDevice(scene, packed, testing::cutShortKernel()).film,
+                                       wanted),
+              0u);
 }
 
 TEST_P(LightLayers, GoOnWithTheSameBits) {

@@ -106,11 +106,7 @@ TEST_P(LookThrough, HasTheSameBitsOnTheDevice) {
     const reference::Result wanted = renderOnCpu(scene, packed);
     EXPECT_GT(wanted.rays.reflection, 100u);
     EXPECT_GT(wanted.rays.refraction, 100u);
-    std::vector<gpu::RenderConfig> configs{{.tileWidth = 8,
-                                            .tileHeight = 16,
-                                            .steps = 60,
-                                            .samplesInFlight = 4,
-                                            .traversal = gpu::Traversal::SkipList}};
+    std::vector<gpu::RenderConfig> configs{testing::cutShortKernel()};
     for (const gpu::RenderConfig &kernel : testing::allKernels())
         configs.push_back(kernel);
     for (const gpu::RenderConfig &config : configs) {

@@ -53,6 +53,14 @@ std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn) {
     return isTestingAll() ? allKernels() : allKernels().subspan(turn % allKernels().size(), 1);
 }
 
+gpu::RenderConfig cutShortKernel() {
+    return {.tileWidth = 8,
+            .tileHeight = 16,
+            .steps = 60,
+            .samplesInFlight = 4,
+            .traversal = gpu::Traversal::SkipList};
+}
+
 gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
     return renderOnDevice(scene, pack(scene, maxDecoded), config);
 }

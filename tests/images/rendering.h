@@ -32,6 +32,9 @@ namespace hyalite::core::testing {
 /// everything is tested.
 [[nodiscard]] std::span<const gpu::RenderConfig> kernelsInTurn(std::size_t turn);
 
+/// A skip list whose dispatches end early: with samples that wait for earlier ones, and such as none has the time for.
+[[nodiscard]] gpu::RenderConfig cutShortKernel();
+
 /// Renders all of the image on the device of test_device.h.
 [[nodiscard]] gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &config = {},
                                          std::size_t maxDecoded = maxDecodedBytes);
