@@ -151,8 +151,6 @@ void planesOfSample(uint slot, out vec3 planes[lightPlanesOrOne]) {
 
 // ---- Paths that wait between two dispatches: words behind the records of all slots
 
-const uint pathRecordWords = 60u;
-
 uint lightWordOf(uint slot) {
     return slotCount() * pathRecordWords + slotIndex[slot] * (lightStateWords + 3u * lightGroups);
 }

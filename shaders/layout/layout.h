@@ -762,6 +762,8 @@ struct PathRecord {
     uint surfaceMaterial; // where constantScattering needs it; with seenFromBehind
 };
 
+const uint pathRecordWords = 60u;
+
 // A ray that glass has split off, to be traced later: at most one for each level of depth.
 struct PendingRay {
     vec3 origin;
@@ -853,7 +855,7 @@ static_assert(sizeof(FilmPixel) == tallyPairs * 2 * sizeof(uint) &&
               offsetof(FilmPixel, sampleCount) == (2 * tallyOthers + 1) * sizeof(uint));
 static_assert(sizeof(DispatchProgress) == 64);
 static_assert(sizeof(TraceEvent) == 32 && offsetof(TraceEvent, value) == 16);
-static_assert(sizeof(PathRecord) == 240 && offsetof(PathRecord, rayTarget) == 208);
+static_assert(sizeof(PathRecord) == pathRecordWords * sizeof(uint) && offsetof(PathRecord, rayTarget) == 208);
 static_assert(sizeof(PendingRay) == 48 && offsetof(PendingRay, medium) == 44);
 } // namespace hyalite::core::layout
 #endif
