@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/host_memory.h"
 #include "host/base/quantities.h"
+#include "host/reference/denoise.h"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,8 @@ std::uint64_t filmBytes(const Crop &crop) {
 }
 
 } // namespace
+
+Image Backend::denoise(const NoisyPicture &picture) { return reference::denoise(picture); }
 
 void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes) {
     const std::uint64_t pixels =

@@ -4,6 +4,7 @@
 #include "host/engine/observer.h"
 #include "host/engine/prepare.h"
 #include "host/engine/time_limit.h"
+#include "host/film/noisy_picture.h"
 #include "host/film/ray_counts.h"
 #include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
@@ -58,6 +59,9 @@ class Backend {
                                                                 const RenderSettings &settings,
                                                                 const glm::uvec2 &pixel,
                                                                 std::uint32_t sampleIndex) = 0;
+    /// The picture without most of its noise; the bits are those of the CPU twin's. By default, the twin does it. Throws
+    /// Error{LimitExceeded} and Error{DeviceLost}.
+    [[nodiscard]] virtual Image denoise(const NoisyPicture &picture);
 };
 
 /// How an observer sees a render, and what it may take.
