@@ -153,6 +153,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     addInspectCommand(app, context);
     addDiffCommand(app, context);
     addToneMapCommand(app, context);
+    addDenoiseCommand(app, context);
     addNewCommand(app, context);
     // After the commands, which would take it over.
     app.footer("`hyalite COMMAND --help`, or `hyalite help COMMAND`, explains a command. Exit codes: 0 ok, 1 "

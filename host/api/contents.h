@@ -107,6 +107,7 @@ struct Image::Content {
     // Of a render; else without pixels.
     core::Film film{core::Crop{}};
     std::vector<core::ViewFilm> views{};
+    core::Image noisy{}; ///< the film's colours, if `image` is denoised
     int wholeWidth = 0;
     int wholeHeight = 0;
     std::optional<core::Projection> projection{};
@@ -123,9 +124,10 @@ struct Image::Content {
     mutable std::vector<std::uint32_t> samples{};
 };
 
-/// The image of a render. `views` are the films of its layers.
+/// The image of a render. `views` are the films of its layers; `clean` are its colours if they were denoised.
 [[nodiscard]] Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &renderer,
-                            core::BackendResult &&result, std::vector<core::ViewFilm> &&views);
+                            core::BackendResult &&result, std::vector<core::ViewFilm> &&views,
+                            std::optional<core::Image> &&clean = std::nullopt);
 
 struct Scene::Content {
     std::string source; ///< a file or a shipped scene; empty: the document

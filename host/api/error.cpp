@@ -30,6 +30,8 @@ std::string_view wordsFor(core::Remedy remedy) {
         return "; leave out the kernel";
     case core::Remedy::CompareRenders:
         return "; a comparison tells where";
+    case core::Remedy::DenoisingData:
+        return "; render it with the setting denoising_data";
     case core::Remedy::AllowPath:
         return "; put it in or below the folder of the scene";
     case core::Remedy::None:

@@ -7,6 +7,7 @@
 #include "host/image/png.h"
 #include "host/jobs/film_picture.h"
 #include "host/jobs/projection.h"
+#include "host/reference/denoise.h"
 #include "host/report/render_report.h"
 #include "host/scene/names.h"
 
@@ -25,6 +26,8 @@ core::ToneCurve toneOf(const std::string &name) {
     return core::chosenFrom(core::toneCurveNames, name, "tone");
 }
 
+bool isDenoised(const Image::Content &content) { return !content.noisy.pixels().empty(); }
+
 /// The values of a layer of the film, by this name.
 void addLayer(const core::Layer &layer, const std::string &name, std::string_view channels,
               Image::Content &content) {
@@ -37,15 +40,25 @@ void addLayer(const core::Layer &layer, const std::string &name, std::string_vie
     content.layers.push_back({name, std::string(channels), values});
 }
 
-/// The layers of light, and those of the views. Names of these are that of the view's row, or those of the layers of a
-/// Cryptomatte.
+/// The layers of light and of the denoiser, and those of the views. Names of these are that of the view's row, or those of
+/// the layers of a Cryptomatte.
 void addLayers(Image::Content &content) {
     for (const core::Layer &layer : core::lightLayers(content.film))
+        addLayer(layer, layer.name, layer.channels, content);
+    if (isDenoised(content)) {
+        const core::Layer noisy = core::noisyLayer(content.noisy);
+        addLayer(noisy, noisy.name, noisy.channels, content);
+    }
+    for (const core::Layer &layer : core::firstSampleLayers(content.film))
         addLayer(layer, layer.name, layer.channels, content);
     for (const core::ViewFilm &view : content.views) {
         const core::IntegratorRow &row = core::rowOf(view.view);
         for (const core::Layer &layer : core::layersOf(view))
-            addLayer(layer, row.tallies() ? layer.name : std::string(row.name), row.layerChannels, content);
+            if (view.isOfDenoiser)
+                addLayer(layer, layer.name, layer.channels, content);
+            else
+                addLayer(layer, row.tallies() ? layer.name : std::string(row.name), row.layerChannels,
+                         content);
     }
 }
 
@@ -112,6 +125,8 @@ std::vector<std::string> write(core::AtomicFile &file, core::ImageFormat format,
         picture.settings = content.settings;
         picture.options = options;
         picture.projection = content.projection;
+        if (isDenoised(content))
+            picture.clean = &content.image;
         return core::writeFilmPicture(file, format, picture);
     }
     if (format == core::ImageFormat::Png) {
@@ -127,10 +142,15 @@ std::vector<std::string> write(core::AtomicFile &file, core::ImageFormat format,
 } // namespace
 
 Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &renderer,
-              core::BackendResult &&result, std::vector<core::ViewFilm> &&views) {
+              core::BackendResult &&result, std::vector<core::ViewFilm> &&views,
+              std::optional<core::Image> &&clean) {
     auto content = std::make_shared<Image::Content>();
     content->settings = scene.loaded.settings;
     content->image = result.film.toImage();
+    if (clean) {
+        content->noisy = std::move(content->image);
+        content->image = std::move(*clean);
+    }
     content->film = std::move(result.film);
     content->views = std::move(views);
     content->alpha = core::alphasOf(content->film, content->views, content->settings);
@@ -145,10 +165,10 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
     for (const core::ViewFilm &view : content->views)
         content->isFinished =
             content->isFinished &&
-            core::finishedWork(view.film, whole,
-                               core::samplesOfView(view.view, spp, content->settings.areLayersThrough))
-                .isComplete;
+            core::finishedWork(view.film, whole, core::samplesOfView(view, content->settings)).isComplete;
     content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
+    if (isDenoised(*content))
+        content->provenance[core::denoisedAttribute] = core::reference::denoiserName;
     addLayers(*content);
     return Image(std::move(content));
 }

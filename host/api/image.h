@@ -57,17 +57,18 @@ class HYALITE_API Image {
     /// Whether the numbers are those of a PNG: display-encoded, in [0, 1], instead of proportional to light.
     [[nodiscard]] bool isDisplayEncoded() const noexcept;
 
-    /// The means of the samples: height x width x 3.
+    /// The means of the samples, or the denoised colours if the settings ask for them: height x width x 3.
     [[nodiscard]] std::span<const float> pixels() const noexcept;
     /// Opacity, height x width; or empty if the image is opaque. `pixels` are multiplied by it (premultiplied) unless they
     /// are display-encoded.
     [[nodiscard]] std::span<const float> alpha() const noexcept;
-    /// The unbiased estimate of the variance of `pixels`; NaN below two samples a pixel. Of the same shape, or empty if
+    /// The unbiased estimate of the variance of the means of the samples; NaN below two samples a pixel. Of the same shape, or empty if
     /// the image was not rendered.
     [[nodiscard]] std::span<const float> variance() const;
     /// Samples of each pixel, height x width; or empty if the image was not rendered.
     [[nodiscard]] std::span<const std::uint32_t> samples() const;
-    /// Those that were asked for, in that order.
+    /// Those of light and of the denoiser, if the settings keep them, by their names in an EXR: "noisy", "denoising_albedo",
+    /// ...; and those that were asked for, in that order.
     [[nodiscard]] const std::vector<Layer> &layers() const noexcept;
 
     /// Whether all samples are there: false if a callback or the time limit has ended the render.

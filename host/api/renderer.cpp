@@ -3,6 +3,7 @@
 #include "host/api/contents.h"
 #include "host/engine/time_limit.h"
 #include "host/gpu/render_config.h"
+#include "host/jobs/denoising.h"
 #include "host/jobs/layers.h"
 #include "host/packing/light_planes.h"
 #include "host/scene/limits.h"
@@ -114,19 +115,24 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
         content_->prepare(scene, std::move(wanted), observer);
         observer.rethrow();
         const core::PreparedScene &prepared = *content_->prepared;
-        const std::vector<core::Integrator> &layers = prepared.views;
+        const core::RenderSettings &used = prepared.loaded.settings;
+        const std::vector<core::PictureView> layers = core::viewsOf(prepared);
         core::requireFilmMemory(prepared.crop, 1 + static_cast<unsigned>(layers.size()),
-                                core::lightPlanesOf(prepared.packed, prepared.loaded.settings).count());
+                                core::lightPlanesOf(prepared.packed, used).count(),
+                                core::denoisingBytes(used, prepared.crop, 1));
         requireTimeLimit(options.timeLimitSeconds);
         const core::TimeLimit limit(options.timeLimitSeconds);
         std::vector<core::ViewFilm> views =
             core::renderViews(*content_->backend, prepared, layers, {}, {}, observer, limit);
         core::BackendResult result = core::unlessFailed(
-            core::render(*content_->backend, prepared.packed, prepared.loaded.settings,
-                         core::Film(prepared.crop), observer, {.name = "render", .limit = limit}));
+            core::render(*content_->backend, prepared.packed, used, core::Film(prepared.crop), observer,
+                         {.name = "render", .limit = limit, .keepsFirst = true}));
         observer.rethrow();
         requireSample(result);
-        return imageOf(prepared, content_->identity, std::move(result), std::move(views));
+        std::optional<core::Image> clean;
+        if (used.isDenoised && core::keepsDenoisingData(used))
+            clean = core::denoised(*content_->backend, result.film, views, observer);
+        return imageOf(prepared, content_->identity, std::move(result), std::move(views), std::move(clean));
     });
 }
 

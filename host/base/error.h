@@ -35,7 +35,8 @@ enum class Remedy {
     BeginAnew,        ///< render with the checkpoint's settings, or without the checkpoint
     AllowPath,        ///< let the scene read files in another folder
     ProfileReport,    ///< a profile writes such a report
-    Turntable         ///< a turntable moves any camera
+    Turntable,        ///< a turntable moves any camera
+    DenoisingData     ///< render with the data of the denoiser
 };
 
 class Error : public std::runtime_error {

@@ -36,6 +36,8 @@ std::string_view wordsFor(Remedy remedy) {
         return "; --allow-path PATH allows another folder or file";
     case Remedy::Turntable:
         return "; --turntable COUNT turns around it";
+    case Remedy::DenoisingData:
+        return "; render it with --denoising-data";
     case Remedy::ProfileReport:
         return "; `hyalite profile --report` writes one";
     }

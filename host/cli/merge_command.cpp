@@ -12,13 +12,16 @@
 #include "host/image/png.h"
 #include "host/import/assets.h"
 #include "host/import/file_access.h"
+#include "host/jobs/denoising.h"
 #include "host/jobs/film_picture.h"
+#include "host/reference/denoise.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +33,7 @@ struct MergeOptions {
     std::vector<std::string> parts;
     std::string output;
     bool isPartial = false;
+    bool isDenoised = false;
     FileRequest file;
     std::optional<double> auditPercent;
     std::optional<std::uint32_t> auditSeed;
@@ -104,15 +108,36 @@ void requireAllowed(const SceneOptions &scene, const std::vector<std::filesystem
                 Remedy::AllowPath);
 }
 
+/// The renderers of --device, after notes on them.
+std::unique_ptr<Backend> openBackend(const MergeOptions &options, Observer &observer) {
+    OpenedRenderers opened = openRenderers(options.devices, observer);
+    for (const std::string &note : opened.notes)
+        printMessage("note: {}\n", note);
+    return std::move(opened.backend);
+}
+
+/// The denoised colours, if they are wanted.
+std::optional<Image> denoisedColours(const Merger &merger, const MergeOptions &options, Observer &observer) {
+    if (!options.isDenoised && !merger.origin().isDenoised)
+        return std::nullopt;
+    const bool hasData = std::ranges::any_of(merger.layers(), &ViewFilm::isOfDenoiser);
+    if (!hasData || merger.film().first.empty())
+        throw Error(ErrorKind::Usage, "--denoise: the parts have none of the data that it needs",
+                    Remedy::DenoisingData);
+    if (!merger.missing().empty()) {
+        observer.warning("the picture stays noisy: it lacks parts");
+        return std::nullopt;
+    }
+    requireFilmMemory(merger.film().crop, 0, 0, denoiserBytes(merger.film().crop));
+    return denoised(*openBackend(options, observer), merger.film(), merger.layers(), observer);
+}
+
 /// Whether all tiles that are drawn have the bits that this machine computes.
 bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &observer) {
     RenderRequest request = readRenderRequest(merger.origin().words);
     request.scene.load.allowedPaths = options.allowedPaths; // what a part says opens no others
     requireAllowed(request.scene, options.allowedPaths);
-    OpenedRenderers opened = openRenderers(options.devices, observer);
-    for (const std::string &note : opened.notes)
-        printMessage("note: {}\n", note);
-    const std::unique_ptr<Backend> backend = std::move(opened.backend);
+    const std::unique_ptr<Backend> backend = openBackend(options, observer);
     if (const gpu::BitGuarantee bits = backend->bits(); bits.degree == gpu::BitDegree::None)
         throw Error(
             ErrorKind::Usage,
@@ -159,7 +184,8 @@ nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &com
     return provenance;
 }
 
-void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, const MergeOptions &options,
+void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger,
+                  const std::optional<Image> &clean, const MergeOptions &options,
                   const std::string &commandLine, Observer &observer) {
     const PartOrigin &origin = merger.origin();
     FilmPicture picture{.film = merger.film(), .views = merger.layers()};
@@ -171,6 +197,10 @@ void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger, co
     picture.settings.hasAlpha = origin.hasAlpha;
     picture.options = options.file.options();
     picture.projection = origin.projection;
+    if (clean) {
+        picture.clean = &*clean;
+        picture.attributes.emplace_back(denoisedAttribute, reference::denoiserName);
+    }
     const std::vector<std::string> losses = writeFilmPicture(file, format, picture);
     file.commit();
     for (const std::string &loss : losses)
@@ -202,11 +232,12 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
         return ExitCode::AnswerIsNo;
     }
     const bool hasLayers = std::ranges::any_of(merger.layers(), [](const ViewFilm &layer) {
-        return layer.view != Integrator::Shadow;
-    }); // which is in alpha
+        return layer.view != Integrator::Shadow && !layer.isOfDenoiser;
+    }); // shadows are in alpha
     if (hasLayers && format != ImageFormat::Exr)
         printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
-    writePicture(file, format, merger, options, commandLine, observer);
+    writePicture(file, format, merger, denoisedColours(merger, options, observer), options, commandLine,
+                 observer);
     if (!options.isQuiet)
         printResult("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
                     merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
@@ -229,6 +260,8 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
               "the picture: .png, .exr, .hdr or .pfm; -: a PNG to standard output, exr:- another format")
         ->required();
     command->add_flag("--partial", options->isPartial, "merge what is there; missing parts are black");
+    command->add_flag("--denoise", options->isDenoised,
+                      "denoise parts of --denoising-data; those of --denoise are anyway");
     command
         ->add_option(
             "--audit", CLI::callback_t([options](const CLI::results_t &words) {
@@ -244,7 +277,7 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
         ->type_name("PERCENT");
     addNumber(*command, "--audit-seed", options->auditSeed, {0.0, 4294967295.0},
               "chooses the tiles to audit, instead of a hash of the picture");
-    command->add_option("--device", options->devices, "for --audit: as for `hyalite render`")
+    command->add_option("--device", options->devices, "for --audit and to denoise: as for `hyalite render`")
         ->type_name("DEVICE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/host_memory.h"
 #include "host/base/quantities.h"
+#include "host/engine/render_stages.h"
 #include "host/reference/denoise.h"
 
 #include <fmt/format.h>
@@ -33,11 +34,13 @@ std::uint64_t filmBytes(const Crop &crop) {
 
 Image Backend::denoise(const NoisyPicture &picture) { return reference::denoise(picture); }
 
-void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes) {
+void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes,
+                       std::uint64_t moreBytes) {
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
-    const std::uint64_t neededBytes =
-        filmCount * filmBytes(crop) + pixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float);
+    const std::uint64_t neededBytes = filmCount * filmBytes(crop) +
+                                      pixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float) +
+                                      moreBytes;
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");
@@ -54,7 +57,9 @@ BackendResult render(Backend &backend, const PackedScene &scene, const RenderSet
     hooks.timeline = task.timeline;
     hooks.snapshots = task.snapshots;
     try {
-        BackendResult result = backend.render(scene, settings, std::move(begun), hooks);
+        const bool hasStages = task.keepsFirst && keepsDenoisingData(settings);
+        BackendResult result = hasStages ? renderInStages(backend, scene, settings, std::move(begun), hooks)
+                                         : backend.render(scene, settings, std::move(begun), hooks);
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);
         for (std::size_t i = 0; i < survived; ++i)
             observer.note(result.faults[i] + "; reopened the device to do half as much at a time");

@@ -72,6 +72,8 @@ struct RenderTask {
     SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
     /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
     double shareOfOthers = 0.0;
+    /// Of the settings that keep data for the denoiser: whether the film gets first samples (first_samples.h).
+    bool keepsFirst = false;
 };
 
 /// Adds the missing samples to `begun`, until the observer wants a stop or the limit is reached. `begun` is of a crop
@@ -84,7 +86,8 @@ struct RenderTask {
 [[nodiscard]] BackendResult unlessFailed(BackendResult result);
 
 /// Throws Error{LimitExceeded} if memory cannot hold this number of films of the crop and the images made of them, with
-/// this number of layers of light in all.
-void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes = 0);
+/// this number of layers of light in all, and `moreBytes` beside them.
+void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes = 0,
+                       std::uint64_t moreBytes = 0);
 
 } // namespace hyalite::core

@@ -39,6 +39,7 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
         if (std::ranges::any_of(*layers, [](Integrator layer) { return rowOf(layer).isOfNumbers(); }))
             identity.emplace_back("names", hashText(scene.packed.namesHash()));
     }
+    identity.emplace_back("denoising data", keepsDenoisingData(settings) ? "true" : "false");
     if (settings.hasLightGroups)
         identity.emplace_back("light groups", hashText(lightGroupsHash(scene.packed)));
     identity.emplace_back("scene and camera", hashText(scene.contentHash()));

@@ -33,10 +33,11 @@ struct Worker {
     RendererShare share{};
 };
 
-std::uint64_t samplesIn(const Film &film) {
+/// Of those that are wanted: some pixels may have more.
+std::uint64_t samplesIn(const Film &film, std::uint32_t samplesPerPixel) {
     std::uint64_t count = 0;
     for (const layout::FilmPixel &pixel : film.pixels)
-        count += pixel.sampleCount;
+        count += std::min(pixel.sampleCount, samplesPerPixel);
     return count;
 }
 
@@ -60,7 +61,8 @@ class SharedRender {
         : members_(members), scene_(scene), settings_(settings), hooks_(hooks),
           samplesPerPixel_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
           spotCheck_(scene, settings, begun.crop, hooks.shouldStop), film_(std::move(begun)),
-          queue_(film_, samplesPerPixel_), finishedSamples_(static_cast<double>(samplesIn(film_))) {
+          queue_(film_, samplesPerPixel_),
+          finishedSamples_(static_cast<double>(samplesIn(film_, samplesPerPixel_))) {
         for (Member &member : members)
             if (!member.isLeftOut()) {
                 workers_.push_back({.member = &member});
@@ -144,7 +146,7 @@ class SharedRender {
         {
             const std::scoped_lock lock(mutex_);
             static_cast<FilmRecords &>(begun) = recordsIn(film_, std::span(&tile, 1));
-            samplesBefore = samplesIn(begun);
+            samplesBefore = samplesIn(begun, samplesPerPixel_);
             worker.currentSamples = static_cast<double>(samplesBefore);
             finishedSamples_ -= worker.currentSamples;
         }
@@ -188,7 +190,7 @@ class SharedRender {
 
     void takeIn(Worker &worker, const Crop &tile, std::uint64_t samplesBefore, double seconds,
                 BackendResult result) {
-        const std::uint64_t samplesNow = samplesIn(result.film);
+        const std::uint64_t samplesNow = samplesIn(result.film, samplesPerPixel_);
         setRecordsIn(film_, std::span(&tile, 1), result.film);
         rays_ += result.rays;
         BackendResult &total = worker.total;

@@ -67,10 +67,10 @@ AuditResult audit(const Merger &merged, Backend &backend, const PreparedScene &s
     tiles.reserve(chosen.size());
     for (const Candidate &candidate : chosen)
         tiles.push_back(candidate.tile);
-    const BackendResult again =
-        unlessFailed(render(backend, scene.packed, scene.loaded.settings,
-                            filmOfSquares(scene.crop, tiles, merged.samplesPerPixel()), observer,
-                            {.name = "audit", .shareOfOthers = shareOutside(scene.crop, tiles)}));
+    const BackendResult again = unlessFailed(
+        render(backend, scene.packed, scene.loaded.settings,
+               filmOfSquares(scene.crop, tiles, merged.samplesPerPixel()), observer,
+               {.name = "audit", .shareOfOthers = shareOutside(scene.crop, tiles), .keepsFirst = true}));
     AuditResult result{chosen.size(), {}};
     for (const Candidate &candidate : chosen)
         if (const std::optional<AuditFinding> finding = compareTile(candidate, merged.film(), again.film))

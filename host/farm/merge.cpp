@@ -3,6 +3,7 @@
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
 #include "host/engine/backend.h"
+#include "host/film/first_samples.h"
 #include "host/film/tally.h"
 #include "host/scene/names.h"
 
@@ -39,12 +40,15 @@ Place placeOf(std::span<const Crop> squares, std::size_t index) {
 /// Pixels of the part that lack samples of the picture or of a layer.
 std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
     const auto samplesOfLayer = [&](std::size_t layer) {
-        return static_cast<std::uint32_t>(samplesOfView(
-            origin.layers[layer].view, static_cast<int>(file.samplesPerPixel), origin.areLayersThrough));
+        return static_cast<std::uint32_t>(
+            samplesOfView(origin.layers[layer].view, static_cast<int>(file.samplesPerPixel),
+                          origin.areLayersThrough, origin.layers[layer].isOfDenoiser));
     };
+    const std::uint32_t firstCount = firstSampleCount(file.samplesPerPixel);
     std::size_t count = 0;
     for (std::size_t i = 0; i < file.film.pixels.size(); ++i) {
-        bool isFinished = file.film.pixels[i].sampleCount == file.samplesPerPixel;
+        bool isFinished = file.film.pixels[i].sampleCount == file.samplesPerPixel &&
+                          (file.film.first.empty() || file.film.first[i].sampleCount == firstCount);
         for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
             isFinished = isFinished && file.layers[layer].pixels[i].sampleCount == samplesOfLayer(layer);
         count += !isFinished;
@@ -124,7 +128,9 @@ void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
 }
 
 void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
-    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()), 2 * file.lightPlaneCount);
+    const std::uint64_t firstBytes = file.film.first.size() * file.part.count * sizeof(FirstSamples);
+    requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()), 2 * file.lightPlaneCount,
+                      2 * firstBytes);
     subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}};
     firstPath_ = file.path.string();
     identity_ = file.identity;
@@ -132,8 +138,10 @@ void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
     partition_.emplace(file.crop, file.part.count);
     film_.emplace(file.crop);
     film_->keepLight(origin.lightPlanes);
+    if (!file.film.first.empty())
+        film_->first.resize(film_->pixels.size());
     for (const PartLayer &layer : origin.layers)
-        layers_.push_back({layer.view, Film(file.crop), layer.names});
+        layers_.push_back({layer.view, Film(file.crop), layer.names, layer.isOfDenoiser});
 }
 
 std::string Merger::foreignness(const CheckpointFile &file) const {
@@ -146,6 +154,8 @@ std::string Merger::foreignness(const CheckpointFile &file) const {
     if (file.lightPlaneCount != film_->lightPlanes.size())
         return fmt::format("layers of light: {} there, {} here", film_->lightPlanes.size(),
                            file.lightPlaneCount);
+    if (file.film.first.empty() != film_->first.empty())
+        return "one of them has no first samples";
     if (file.layers.size() != layers_.size())
         return fmt::format("layers: {} there, {} here", layers_.size(), file.layers.size());
     return file.crop == subject_->crop ? "" : "it has another crop";

@@ -23,6 +23,8 @@ namespace hyalite::core {
 
 namespace {
 
+constexpr std::string_view denoiserPrefix = "denoising_"; // as the layers of files
+
 /// Whether a word of a command line can be shown as it is.
 bool isPlain(const std::string &word) {
     return std::ranges::none_of(word, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; });
@@ -59,7 +61,8 @@ std::string PartOrigin::maker() const {
 std::vector<Integrator> PartOrigin::views() const {
     std::vector<Integrator> views;
     for (const PartLayer &layer : layers)
-        views.push_back(layer.view);
+        if (!layer.isOfDenoiser)
+            views.push_back(layer.view);
     return views;
 }
 
@@ -77,7 +80,8 @@ std::string toText(const PartOrigin &origin) {
                                 {"layers", nlohmann::ordered_json::array()},
                                 {"provenance", nlohmann::ordered_json::parse(origin.provenance)}};
     for (const PartLayer &layer : origin.layers) {
-        json["layers"].push_back(nameOf(layer.view));
+        json["layers"].push_back((layer.isOfDenoiser ? std::string(denoiserPrefix) : std::string()) +
+                                 std::string(nameOf(layer.view)));
         if (!layer.names.empty())
             json["names"][std::string(nameOf(layer.view))] = layer.names;
     }
@@ -121,7 +125,10 @@ PartOrigin readPartOrigin(std::string_view text) {
             return row->integrator;
         };
         for (const nlohmann::ordered_json &word : json.at("layers")) {
-            PartLayer layer{integratorOf(word), {}};
+            const std::string name = word.get<std::string>();
+            const bool isOfDenoiser = name.starts_with(denoiserPrefix);
+            PartLayer layer{
+                integratorOf(isOfDenoiser ? name.substr(denoiserPrefix.size()) : name), {}, isOfDenoiser};
             if (rowOf(layer.view).isOfNumbers() && json.contains("names"))
                 layer.names = json.at("names").value(word.get<std::string>(), layer.names);
             origin.layers.push_back(std::move(layer));
@@ -136,6 +143,7 @@ PartOrigin readPartOrigin(std::string_view text) {
         origin.exposureStops = settings.at("exposure").get<double>();
         origin.hasAlpha = settings.value("alpha", false); // older parts have neither this nor the next
         origin.areLayersThrough = settings.value("layersThrough", false);
+        origin.isDenoised = settings.value("denoise", false);
         const nlohmann::ordered_json &device = provenance.at("device");
         origin.device = fmt::format("{}, {}", device.at("name").get<std::string>(),
                                     device.at("driver").get<std::string>());

@@ -15,6 +15,7 @@ namespace hyalite::core {
 struct PartLayer {
     Integrator view;
     std::vector<std::string> names{}; ///< of a view of numbers, from 1 on
+    bool isOfDenoiser = false;        ///< after the others
 };
 
 struct PartOrigin {
@@ -33,9 +34,10 @@ struct PartOrigin {
     double exposureStops = 0.0;
     bool hasAlpha = false;
     bool areLayersThrough = false;
+    bool isDenoised = false;
     std::string device; ///< its name and driver: "llvmpipe, Mesa 22.3.6"
 
-    [[nodiscard]] std::vector<Integrator> views() const; ///< of the layers
+    [[nodiscard]] std::vector<Integrator> views() const; ///< of the layers, but those of the denoiser
     /// "node7 (llvmpipe, Mesa 22.3.6)".
     [[nodiscard]] std::string maker() const;
 };

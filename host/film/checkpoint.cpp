@@ -33,8 +33,10 @@ struct Header {
     std::uint32_t layerCount;
     std::uint32_t originBytes;
     std::uint32_t lightPlanes;
+    std::uint32_t keepsFirst;
+    std::uint32_t unused;
 };
-static_assert(sizeof(Header) == 88 && std::has_unique_object_representations_v<Header>);
+static_assert(sizeof(Header) == 96 && std::has_unique_object_representations_v<Header>);
 
 /// The file is complete, but this render cannot continue from it.
 class OtherRender : public Error {
@@ -87,6 +89,7 @@ class Reader {
         contents.lightPlaneCount = header.lightPlanes;
         contents.film.pixels.resize(pixelCount);
         contents.film.light.resize(pixelCount * layout::lightWordsPerPlane * header.lightPlanes);
+        contents.film.first.resize(pixelCount * header.keepsFirst);
         contents.layers.resize(header.layerCount);
         for (FilmRecords &layer : contents.layers)
             layer.pixels.resize(pixelCount);
@@ -102,6 +105,8 @@ class Reader {
             readHashed(std::as_writable_bytes(std::span(records.pixels)));
             if (!records.light.empty())
                 readHashed(std::as_writable_bytes(std::span(records.light)));
+            if (!records.first.empty())
+                readHashed(std::as_writable_bytes(std::span(records.first)));
         };
         readRecords(contents.film);
         std::ranges::for_each(contents.layers, readRecords);
@@ -133,14 +138,17 @@ class Reader {
         const Crop crop{header.x0, header.x1, header.y0, header.y1};
         if (header.partIndex < 1 || header.partIndex > header.partCount ||
             header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers ||
-            header.lightPlanes > maxLayers)
+            header.lightPlanes > maxLayers || header.keepsFirst > 1)
             throw file_.bad(
-                fmt::format("it is damaged: it would be part {} of {}, with {} layers and {} of light",
-                            header.partIndex, header.partCount, header.layerCount, header.lightPlanes));
+                fmt::format("it is damaged: it would be part {} of {}, with {} layers, {} of light and {} of "
+                            "first samples",
+                            header.partIndex, header.partCount, header.layerCount, header.lightPlanes,
+                            header.keepsFirst));
         const std::uint64_t besidePixels =
             magic.size() + sizeof(Header) + header.identityBytes + header.originBytes + sizeof(std::uint64_t);
         const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount) +
-                                        sizeof(float) * layout::lightWordsPerPlane * header.lightPlanes;
+                                        sizeof(float) * layout::lightWordsPerPlane * header.lightPlanes +
+                                        sizeof(FirstSamples) * header.keepsFirst;
         const std::uint64_t inFile =
             file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
         // Before the squares are counted, which takes memory: parts are alike, except for few squares.
@@ -248,7 +256,9 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
                   subject_.samplesPerPixel,
                   static_cast<std::uint32_t>(layers.size()),
                   static_cast<std::uint32_t>(subject_.origin.size()),
-                  static_cast<std::uint32_t>(film.lightSize() / layout::lightWordsPerPlane)};
+                  static_cast<std::uint32_t>(film.lightSize() / layout::lightWordsPerPlane),
+                  film.first.empty() ? 0u : 1u,
+                  0u};
     for (std::size_t i = 0; i < rayKinds.size(); ++i)
         header.rays[i] = rays.*rayKinds[i].count;
     std::string head(magic);
@@ -269,6 +279,8 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
             writeHashed(std::as_bytes(std::span(records.pixels)));
             if (!records.light.empty())
                 writeHashed(std::as_bytes(std::span(records.light)));
+            if (!records.first.empty())
+                writeHashed(std::as_bytes(std::span(records.first)));
         };
         if (subject_.part.count == 1)
             writeRecords(whole);

@@ -10,11 +10,13 @@
 //     u32 index of the part, from 1     u32 number of parts: 1 for a whole render
 //     u32 samples wanted for each pixel     u32 number of layers
 //     u32 bytes of the origin     u32 number of layers of light
+//     u32 1 if first samples are kept, or 0     u32 0
 //     the identity, a line "name: value" for each of its parts
 //     the origin: what the writer says of itself
 //     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row. One word of a
 //     pixel is 0, and is kept for what later samples or filters want to know of it; more than that is a layer
 //     the layers of light of these pixels (film.h)
+//     their first samples, as FirstSamples (film.h), if they are kept
 //     the pixels of each layer
 //     u64 hash of all that
 #pragma once
@@ -35,7 +37,7 @@
 namespace hyalite::core {
 
 /// Of checkpoints and parts. Files of another version are refused by name.
-inline constexpr std::uint32_t checkpointVersion = 7;
+inline constexpr std::uint32_t checkpointVersion = 8;
 
 /// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
 /// values have no line ends, and names have no colons.

@@ -39,6 +39,30 @@ std::vector<Layer> lightLayers(const Film &film) {
     return layers;
 }
 
+std::vector<Layer> firstSampleLayers(const Film &film) {
+    if (film.first.empty())
+        return {};
+    const auto rowOfFirst = [&film](int y) {
+        const auto width = static_cast<std::size_t>(film.crop.width());
+        return std::span(film.first).subspan(static_cast<std::size_t>(y) * width, width);
+    };
+    Layer means{"denoising_first", "RGB", [rowOfFirst](int y, std::span<float> row) {
+                    float *next = row.data();
+                    for (const FirstSamples &first : rowOfFirst(y))
+                        for (int channel = 0; channel < 3; ++channel)
+                            *next++ = first.mean[channel];
+                }};
+    Layer counts{"denoising_first_samples", "Y", [rowOfFirst](int y, std::span<float> row) {
+                     std::ranges::transform(rowOfFirst(y), row.begin(), [](const FirstSamples &first) {
+                         return static_cast<float>(first.sampleCount);
+                     });
+                 }};
+    counts.fillWholeRow = [rowOfFirst](int y, std::span<std::uint32_t> row) {
+        std::ranges::transform(rowOfFirst(y), row.begin(), &FirstSamples::sampleCount);
+    };
+    return {std::move(means), std::move(counts)};
+}
+
 std::vector<Layer> filmLayers(const Film &film) {
     std::vector<Layer> layers;
     const auto hasVariance = [](const layout::FilmPixel &pixel) { return pixel.sampleCount > 1; };
@@ -57,17 +81,19 @@ std::vector<Layer> filmLayers(const Film &film) {
     };
     layers.push_back(std::move(samples));
     std::ranges::move(lightLayers(film), std::back_inserter(layers));
+    std::ranges::move(firstSampleLayers(film), std::back_inserter(layers));
     return layers;
 }
 
 bool haveEqualBits(const FilmRecords &a, const FilmRecords &b, std::size_t pixel) {
     const std::size_t size = a.lightSize();
-    if (size != b.lightSize())
+    if (size != b.lightSize() || a.first.empty() != b.first.empty())
         return false;
     // NOLINTBEGIN(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a.pixels[pixel], &b.pixels[pixel], sizeof a.pixels[pixel]) == 0 &&
            (size == 0 ||
-            std::memcmp(&a.light[pixel * size], &b.light[pixel * size], size * sizeof(float)) == 0);
+            std::memcmp(&a.light[pixel * size], &b.light[pixel * size], size * sizeof(float)) == 0) &&
+           (a.first.empty() || std::memcmp(&a.first[pixel], &b.first[pixel], sizeof a.first[pixel]) == 0);
     // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -56,12 +57,21 @@ namespace hyalite::core {
     return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
 }
 
+/// The mean of a pixel's first samples.
+struct FirstSamples {
+    glm::vec3 mean{0.0f};
+    std::uint32_t sampleCount = 0; ///< 0: they are not known
+};
+static_assert(sizeof(FirstSamples) == 16); // as files have them
+
 /// What a film has of some pixels.
 struct FilmRecords {
     std::vector<layout::FilmPixel> pixels;
     /// Layers of light: of each pixel the sums of the samples of all planes, three channels each, and then the rests of
     /// these sums. Empty without planes.
     std::vector<float> light{};
+    /// For the denoiser, of each pixel (first_samples.h). Empty unless they are kept.
+    std::vector<FirstSamples> first{};
 
     /// For each pixel.
     [[nodiscard]] std::size_t lightSize() const { return pixels.empty() ? 0 : light.size() / pixels.size(); }
@@ -102,12 +112,16 @@ struct Film : FilmRecords {
 /// The layers of light, RGB. `film` must outlive them.
 [[nodiscard]] std::vector<Layer> lightLayers(const Film &film);
 
+/// The layers of first samples: their means, RGB, and their numbers; none if they are not kept. `film` must outlive them.
+[[nodiscard]] std::vector<Layer> firstSampleLayers(const Film &film);
+
 /// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; "samples", the
-/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part; and its layers of light.
+/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part; and its layers of light and of first
+/// samples.
 /// `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
-/// Whether the pixels of this index are equal in every bit, their layers of light included.
+/// Whether the pixels of this index are equal in every bit, their layers of light and first samples included.
 [[nodiscard]] bool haveEqualBits(const FilmRecords &a, const FilmRecords &b, std::size_t pixel);
 
 /// The first pixel that differs in any bit, or the number of pixels.

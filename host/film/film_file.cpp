@@ -22,12 +22,16 @@ Drawing drawCost(const Film &cost) {
 }
 
 Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve tone) {
+    return drawFilm(film, film.toImage(), settings, tone);
+}
+
+Drawing drawFilm(const Film &film, const Image &colours, const RenderSettings &settings, ToneCurve tone) {
     if (settings.integrator == Integrator::Cost)
         return drawCost(film);
     Drawing drawing;
     drawing.width = film.crop.width();
     drawing.height = film.crop.height();
-    drawing.rgb = toneMap(film.toImage(), settings.exposureStops, tone);
+    drawing.rgb = toneMap(colours, settings.exposureStops, tone);
     return drawing;
 }
 

@@ -23,6 +23,9 @@ inline constexpr const char *pixelsAttribute = "pixels";
 /// The picture without alpha, which is its composite over black: the tone-mapped means, or drawCost() for the cost.
 [[nodiscard]] Drawing drawFilm(const Film &film, const RenderSettings &settings,
                                ToneCurve tone = ToneCurve::Gamma);
+/// The same with these colours instead of the means.
+[[nodiscard]] Drawing drawFilm(const Film &film, const Image &colours, const RenderSettings &settings,
+                               ToneCurve tone);
 
 /// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost, with the attribute "pixels", which is
 /// pixelHash() of the file's colours. Returns and throws likewise.

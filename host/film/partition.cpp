@@ -148,6 +148,10 @@ FilmRecords recordsIn(const Film &film, std::span<const Crop> squares) {
         const auto light = std::span(film.light).subspan(first * size, count * size);
         records.pixels.insert(records.pixels.end(), row.begin(), row.end());
         records.light.insert(records.light.end(), light.begin(), light.end());
+        if (!film.first.empty()) {
+            const auto ofRow = std::span(film.first).subspan(first, count);
+            records.first.insert(records.first.end(), ofRow.begin(), ofRow.end());
+        }
     });
     return records;
 }
@@ -156,12 +160,17 @@ void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &
     const std::size_t size = records.lightSize();
     if (film.lightSize() != size)
         film.light.assign(film.pixels.size() * size, 0.0f);
+    if (film.first.empty() != records.first.empty())
+        film.first.assign(records.first.empty() ? 0 : film.pixels.size(), {});
     std::size_t done = 0;
     visitRows(film, squares, [&](std::size_t first, std::size_t count) {
         std::ranges::copy(std::span(records.pixels).subspan(done, count),
                           std::span(film.pixels).subspan(first).begin());
         std::ranges::copy(std::span(records.light).subspan(done * size, count * size),
                           std::span(film.light).subspan(first * size).begin());
+        if (!film.first.empty())
+            std::ranges::copy(std::span(records.first).subspan(done, count),
+                              std::span(film.first).subspan(first).begin());
         done += count;
     });
     assert(done == records.pixels.size());

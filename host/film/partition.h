@@ -57,8 +57,8 @@ void visitRowsIn(const Film &film, std::span<const Crop> squares,
 /// What the film has in the squares: of each in their order, row by row.
 [[nodiscard]] FilmRecords recordsIn(const Film &film, std::span<const Crop> squares);
 
-/// The opposite: gives the film these records, as many as the squares have pixels. Layers of light are kept from then
-/// on, if the records have any.
+/// The opposite: gives the film these records, as many as the squares have pixels. Layers of light and first samples
+/// are kept from then on, if the records have any.
 void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &records);
 
 /// A film in which pixels outside of the squares have `sampleCount` samples already: a render leaves them alone.

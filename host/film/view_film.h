@@ -4,6 +4,8 @@
 #include "host/film/film.h"
 #include "host/scene/integrators.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,12 @@ struct ViewFilm {
     Integrator view;
     Film film;
     std::vector<std::string> names{}; ///< of a view of numbers: that of number n is at n - 1
+    /// Data of the denoiser, beside the layers of the picture: it looks through mirrors and glass.
+    bool isOfDenoiser = false;
 };
+
+/// The views that the denoiser needs.
+inline constexpr std::array denoiserViews{Integrator::Albedo, Integrator::Normal, Integrator::Depth};
 
 /// Whether a layer of an image has one sample for each pixel, at its centre. A layer that looks through has those of the
 /// image: it goes with the colours there, which are means over lens, filter and choices at glass.
@@ -21,8 +28,12 @@ struct ViewFilm {
     return rowOf(view).isOfCentres && !(areLayersThrough && rowOf(view).canLookThrough);
 }
 
-/// The samples of a view for each pixel: those of the image, or the pixel's centre.
-[[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel, bool areLayersThrough) {
+/// The samples of a view for each pixel: those of the image, or the pixel's centre. A few are enough for the denoiser.
+[[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel, bool areLayersThrough,
+                                          bool isOfDenoiser = false) {
+    constexpr int maxForDenoiser = 8;
+    if (isOfDenoiser)
+        return std::min(samplesPerPixel, maxForDenoiser);
     return isOfCentres(view, areLayersThrough) ? 1 : samplesPerPixel;
 }
 

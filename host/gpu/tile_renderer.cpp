@@ -147,7 +147,7 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
         light_.upload(std::as_bytes(job.light));
     }
     for (const layout::FilmPixel &pixel : job.film)
-        samplesInFilm_ += pixel.sampleCount;
+        samplesInFilm_ += std::min(pixel.sampleCount, job.sampleEnd); // some may have more
     const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
         return a.sampleCount < b.sampleCount;
     });

@@ -1,5 +1,6 @@
 #include "host/base/clean_text.h"
 #include "host/image/exr.h"
+#include "host/image/exr_picture.h"
 #include "host/image/image_file.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -9,6 +10,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOpaqueAttribute.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTileDescription.h>
 
@@ -17,8 +19,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -64,6 +68,11 @@ class SafeHeader {
 
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
     [[nodiscard]] bool hasParts() const { return hasParts_; }
+    /// The type that a file gives an attribute, in its last part.
+    [[nodiscard]] std::string typeOf(const std::string &attribute) const {
+        const auto type = types_.find(attribute);
+        return type != types_.end() ? type->second : "";
+    }
     /// Where the header of each part begins; of a file without parts, of its only one.
     [[nodiscard]] std::span<const std::size_t> parts() const { return parts_; }
 
@@ -116,6 +125,7 @@ class SafeHeader {
         const std::string_view name = textAt(begin);
         const std::size_t typeBegin = begin + name.size() + 1;
         const std::size_t typeSize = textAt(typeBegin).size();
+        types_[std::string(name)] = textAt(typeBegin);
         const std::size_t sizeBegin = typeBegin + typeSize + 1;
         (void)byteAt(sizeBegin + 3);
         const std::uint32_t size = little32(std::span(bytes_).subspan(sizeBegin));
@@ -147,6 +157,7 @@ class SafeHeader {
     const InputFile &file_;
     std::vector<std::byte> bytes_;
     std::vector<std::size_t> parts_;
+    std::map<std::string, std::string> types_; ///< of attributes
     bool hasParts_ = false;
 };
 
@@ -413,6 +424,79 @@ std::vector<std::uint32_t> readWhole(const InputFile &file, const std::string &l
         });
 }
 
+/// The texts, and the matrices of the projection, if both are there.
+void readAttributes(const Imf::Header &header, const SafeHeader &safeHeader, ExrPicture &picture) {
+    std::optional<std::array<double, 16>> worldToCamera;
+    std::optional<std::array<double, 16>> worldToNdc;
+    const auto matrixOf = [](std::span<const char> bytes) {
+        std::array<double, 16> matrix{};
+        for (std::size_t i = 0; i < matrix.size(); ++i)
+            matrix[i] = std::bit_cast<float>(little32(std::as_bytes(bytes.subspan(4 * i, 4))));
+        return matrix;
+    };
+    for (Imf::Header::ConstIterator i = header.begin(); i != header.end(); ++i) {
+        // Those that are not opaque are the library's own.
+        const auto *opaque = dynamic_cast<const Imf::OpaqueAttribute *>(&i.attribute());
+        if (opaque == nullptr)
+            continue;
+        const std::string name = i.name();
+        const std::span bytes(static_cast<const char *>(opaque->data()),
+                              static_cast<std::size_t>(opaque->dataSize()));
+        const std::string type = safeHeader.typeOf(name);
+        if (type == "string")
+            picture.attributes.emplace_back(name, std::string(bytes.begin(), bytes.end()));
+        else if (type == "m44f" && bytes.size() == 16 * sizeof(float) && name == "worldToCamera")
+            worldToCamera = matrixOf(bytes);
+        else if (type == "m44f" && bytes.size() == 16 * sizeof(float) && name == "worldToNDC")
+            worldToNdc = matrixOf(bytes);
+    }
+    if (worldToCamera && worldToNdc)
+        picture.projection =
+            Projection{*worldToCamera, *worldToNdc, static_cast<double>(header.screenWindowWidth())};
+}
+
+ExrCompression compressionOf(Imf::Compression compression) {
+    // As the library numbers them.
+    constexpr std::array known{ExrCompression::None, ExrCompression::Rle,  ExrCompression::Zips,
+                               ExrCompression::Zip,  ExrCompression::Piz,  ExrCompression::Pxr24,
+                               ExrCompression::B44,  ExrCompression::B44a, ExrCompression::Dwaa,
+                               ExrCompression::Dwab};
+    static_assert(Imf::NO_COMPRESSION == 0 && Imf::PIZ_COMPRESSION == 4 && Imf::DWAB_COMPRESSION == 9);
+    const auto index = static_cast<std::size_t>(compression);
+    return index < known.size() ? known[index] : ExrCompression::Zip;
+}
+
+template <class Reader> void readChannels(const InputFile &file, Reader &reader, ExrPicture &picture) {
+    const Imf::Header &header = reader.header();
+    const Imath::Box2i &window = header.dataWindow();
+    const auto width = static_cast<std::size_t>(picture.crop.width());
+    const std::size_t size = width * static_cast<std::size_t>(picture.crop.height());
+    if (!reader.isComplete())
+        throw file.bad("some of its rows are missing");
+    std::uint64_t channelCount = 0;
+    for (Imf::ChannelList::ConstIterator i = header.channels().begin(); i != header.channels().end(); ++i)
+        ++channelCount;
+    requireReadingMemory(file, width, static_cast<std::uint64_t>(picture.crop.height()),
+                         channelCount * size * sizeof(float));
+    Imf::FrameBuffer frameBuffer;
+    for (Imf::ChannelList::ConstIterator i = header.channels().begin(); i != header.channels().end(); ++i) {
+        ExrChannel &channel = picture.channels.emplace_back();
+        channel.name = i.name();
+        channel.isHalf = i.channel().type == Imf::HALF;
+        const auto insert = [&](Imf::PixelType type, auto &values) {
+            values.resize(size);
+            frameBuffer.insert(channel.name, Imf::Slice::Make(type, values.data(), window, sizeof(values[0]),
+                                                              sizeof(values[0]) * width));
+        };
+        if (i.channel().type == Imf::UINT)
+            insert(Imf::UINT, channel.wholeValues);
+        else
+            insert(Imf::FLOAT, channel.values);
+    }
+    reader.setFrameBuffer(frameBuffer);
+    reader.readPixels(window.min.y, window.max.y);
+}
+
 } // namespace
 
 bool isExr(std::span<const std::byte> head) {
@@ -453,6 +537,59 @@ AlphaImage readExrWithAlpha(const InputFile &file) {
 
 std::vector<std::uint32_t> readExrWhole(const InputFile &file, const std::string &layer) {
     return asked(file, [&] { return readWhole(file, layer); });
+}
+
+ExrPicture readExrPicture(const InputFile &file) {
+    return asked(file, [&] {
+        const SafeHeader safeHeader(file);
+        if (safeHeader.hasParts())
+            throw file.bad("it has several parts; allowed: one");
+        ExrInput input(file, safeHeader);
+        const Imf::Header header = readHeaders(file, safeHeader, input).front();
+        const Imath::Box2i &data = header.dataWindow();
+        const Imath::Box2i &display = header.displayWindow();
+        if (data.min.x < display.min.x || data.min.y < display.min.y || data.max.x > display.max.x ||
+            data.max.y > display.max.y)
+            throw file.bad("its data window leaves its display window");
+        requireImageSize(file, std::int64_t{display.max.x} - display.min.x + 1,
+                         std::int64_t{display.max.y} - display.min.y + 1);
+        ExrPicture picture;
+        picture.wholeWidth = display.max.x - display.min.x + 1;
+        picture.wholeHeight = display.max.y - display.min.y + 1;
+        picture.crop = {data.min.x - display.min.x, data.max.x - display.min.x + 1,
+                        data.min.y - display.min.y, data.max.y - display.min.y + 1};
+        readAttributes(header, safeHeader, picture);
+        input.seekg(0);
+        Imf::InputFile reader(input, 0);
+        readChannels(file, reader, picture);
+        const ExrChannel *red = picture.find("R");
+        picture.options = {red != nullptr && red->isHalf, compressionOf(header.compression())};
+        return picture;
+    });
+}
+
+std::vector<Layer> layersOf(const ExrPicture &picture) {
+    std::vector<Layer> layers;
+    const auto width = static_cast<std::size_t>(picture.crop.width());
+    const auto copyRow = [width](const auto &values, int y, auto row) {
+        std::ranges::copy(std::span(values).subspan(static_cast<std::size_t>(y) * width, width), row.begin());
+    };
+    for (const ExrChannel &channel : picture.channels) {
+        if (channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A")
+            continue;
+        Layer layer{channel.name, "", {}};
+        layer.isLight = channel.isHalf;
+        if (channel.wholeValues.empty())
+            layer.fillRow = [&channel, copyRow](int y, std::span<float> row) {
+                copyRow(channel.values, y, row);
+            };
+        else
+            layer.fillWholeRow = [&channel, copyRow](int y, std::span<std::uint32_t> row) {
+                copyRow(channel.wholeValues, y, row);
+            };
+        layers.push_back(std::move(layer));
+    }
+    return layers;
 }
 
 bool hasExrLayer(const InputFile &file, const std::string &layer) {

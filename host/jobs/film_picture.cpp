@@ -1,6 +1,7 @@
 #include "host/jobs/film_picture.h"
 
 #include "host/film/film_file.h"
+#include "host/image/exr.h"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,17 @@ Layer motionLayer(std::span<const glm::vec4> motion, int width) {
 
 } // namespace
 
+Layer noisyLayer(const Image &noisy) {
+    return {std::string(noisyLayerName), "RGB", [&noisy](int y, std::span<float> row) {
+                for (int x = 0; x < noisy.width(); ++x)
+                    for (int channel = 0; channel < 3; ++channel)
+                        row[static_cast<std::size_t>(3 * x + channel)] = noisy.at(x, y)[channel];
+            }};
+}
+
 std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
-    const Image image = picture.film.toImage();
-    Picture all(image);
+    const Image noisy = picture.film.toImage();
+    Picture all(picture.clean != nullptr ? *picture.clean : noisy);
     const std::vector<float> alpha = alphasOf(picture.film, picture.views, picture.settings);
     all.alpha = alpha;
     all.wholeWidth = picture.wholeWidth;
@@ -32,6 +41,10 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     all.crop = picture.film.crop;
     all.layers = filmLayers(picture.film);
     std::ranges::move(viewLayers(picture.views), std::back_inserter(all.layers));
+    // Where the colours are others or rounded, the denoiser needs those of the film.
+    const bool isRounded = picture.options.exr.isHalf || isLossy(picture.options.exr.compression);
+    if (picture.clean != nullptr || (!picture.film.first.empty() && isRounded))
+        all.layers.push_back(noisyLayer(noisy));
     if (!picture.motion.empty())
         all.layers.push_back(motionLayer(picture.motion, picture.film.crop.width()));
     all.attributes = picture.attributes;
@@ -43,6 +56,10 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     if (format != ImageFormat::Exr && !picture.film.lightPlanes.empty())
         warnings.push_back(
             fmt::format("'{}' has none of the layers of light: an .exr keeps them", file.path().string()));
+    if (format != ImageFormat::Exr && picture.settings.hasDenoisingData &&
+        keepsDenoisingData(picture.settings))
+        warnings.push_back(
+            fmt::format("'{}' has none of the denoiser's data: an .exr keeps it", file.path().string()));
     return warnings;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyalite::core {
@@ -24,7 +25,16 @@ struct FilmPicture {
     FileOptions options{};
     std::optional<Projection> projection{}; ///< of the camera
     std::span<const glm::vec4> motion{}; ///< of the film's pixels: their motion vectors; empty: no such layer
+    const Image *clean =
+        nullptr; ///< the denoised colours, instead of the film's, of which `attributes` tell; or null
 };
+
+/// The attribute of a denoised picture, and the name of the layer of its noisy colours.
+inline constexpr const char *denoisedAttribute = "denoised";
+inline constexpr std::string_view noisyLayerName = "noisy";
+
+/// `noisy` must outlive it.
+[[nodiscard]] Layer noisyLayer(const Image &noisy);
 
 /// Writes it with its views and the layers of the film; the caller commits the file. Returns and throws as writeImage()
 /// does.

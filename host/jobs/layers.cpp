@@ -51,15 +51,6 @@ float shadowOf(const layout::FilmPixel &pixel) {
     return sum.z > 0.0 ? static_cast<float>(sum.x / pixel.sampleCount * (sum.z / sum.y)) : 0.0f;
 }
 
-/// The value of a pixel in the layer.
-glm::vec3 valueOf(Integrator view, const layout::FilmPixel &pixel) {
-    if (view == Integrator::Normal)
-        return normalOf(meanOf(pixel));
-    if (view == Integrator::Shadow)
-        return glm::vec3(shadowOf(pixel));
-    return meanOf(pixel);
-}
-
 Layer layerOf(const ViewFilm &of) {
     const Film &film = of.film;
     const IntegratorRow &row = rowOf(of.view);
@@ -67,11 +58,14 @@ Layer layerOf(const ViewFilm &of) {
     const auto fillRow = [&film, view = of.view, channelCount](int y, std::span<float> values) {
         float *next = values.data();
         for (const layout::FilmPixel &pixel : rowOf(film, y)) {
-            const glm::vec3 value = valueOf(view, pixel);
+            const glm::vec3 value = valueInLayer(view, pixel);
             for (int channel = 0; channel < channelCount; ++channel)
                 *next++ = value[channel];
         }
     };
+    if (of.isOfDenoiser)
+        return {fmt::format("denoising_{}", row.name),
+                of.view == Integrator::Depth ? "Y" : std::string(row.layerChannels), fillRow};
     if (of.view == Integrator::Depth)
         return {std::string(row.layerChannels), "", fillRow};
     Layer layer{std::string(row.name), std::string(row.layerChannels), fillRow};
@@ -86,22 +80,60 @@ Layer layerOf(const ViewFilm &of) {
     return layer;
 }
 
+/// The settings of a view of an image.
+RenderSettings settingsOf(const PictureView &view, const RenderSettings &ofImage) {
+    RenderSettings settings = ofImage;
+    settings.integrator = view.view;
+    settings.areLayersThrough = ofImage.areLayersThrough || view.isOfDenoiser;
+    settings.samplesPerPixel =
+        samplesOfView(view.view, ofImage.samplesPerPixel, settings.areLayersThrough, view.isOfDenoiser);
+    if (isOfCentres(view.view, settings.areLayersThrough))
+        settings.sampler = SamplerKind::Centre;
+    return settings;
+}
+
 } // namespace
 
+std::vector<PictureView> layerViewsOf(const PreparedScene &scene) {
+    std::vector<PictureView> views;
+    for (const Integrator view : scene.views)
+        views.push_back({view});
+    return views;
+}
+
+std::vector<PictureView> viewsOf(const PreparedScene &scene) {
+    std::vector<PictureView> views = layerViewsOf(scene);
+    if (keepsDenoisingData(scene.loaded.settings))
+        for (const Integrator view : denoiserViews)
+            views.push_back({view, true});
+    return views;
+}
+
+int samplesOfView(const PictureView &view, const RenderSettings &ofImage) {
+    return samplesOfView(view.view, ofImage.samplesPerPixel, ofImage.areLayersThrough, view.isOfDenoiser);
+}
+
+int samplesOfView(const ViewFilm &view, const RenderSettings &ofImage) {
+    return samplesOfView(PictureView{view.view, view.isOfDenoiser}, ofImage);
+}
+
+glm::vec3 valueInLayer(Integrator view, const layout::FilmPixel &pixel) {
+    if (view == Integrator::Normal)
+        return normalOf(meanOf(pixel));
+    if (view == Integrator::Shadow)
+        return glm::vec3(shadowOf(pixel));
+    return meanOf(pixel);
+}
+
 std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
-                                  const std::vector<Integrator> &views, std::span<const Crop> squares,
+                                  std::span<const PictureView> views, std::span<const Crop> squares,
                                   std::span<const Film> begun, Observer &observer, const TimeLimit &limit) {
-    const RenderSettings &ofImage = scene.loaded.settings;
     std::vector<ViewFilm> films;
-    for (const Integrator view : views) {
-        std::vector<std::string> names = scene.packed.namesOf(view);
-        RenderSettings settings = ofImage;
-        settings.integrator = view;
-        settings.samplesPerPixel = samplesOfView(view, ofImage.samplesPerPixel, ofImage.areLayersThrough);
-        if (isOfCentres(view, ofImage.areLayersThrough))
-            settings.sampler = SamplerKind::Centre;
+    for (const PictureView &view : views) {
+        std::vector<std::string> names = scene.packed.namesOf(view.view);
+        const RenderSettings settings = settingsOf(view, scene.loaded.settings);
         Film film(scene.crop);
-        RenderTask task{.name = std::string(nameOf(view)), .limit = limit};
+        RenderTask task{.name = std::string(nameOf(view.view)), .limit = limit};
         bool isFinished = false;
         if (!squares.empty()) {
             film = filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
@@ -113,10 +145,10 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
         if (!isFinished && !observer.wantsStop() && !limit.isReached()) {
             film =
                 unlessFailed(render(backend, scene.packed, settings, std::move(film), observer, task)).film;
-            if (view == Integrator::Depth && isOfCentres(view, ofImage.areLayersThrough))
+            if (view.view == Integrator::Depth && isOfCentres(view.view, settings.areLayersThrough))
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
         }
-        films.push_back({view, std::move(film), std::move(names)});
+        films.push_back({view.view, std::move(film), std::move(names), view.isOfDenoiser});
     }
     return films;
 }

@@ -3,19 +3,23 @@
 #include "host/base/hash.h"
 #include "host/engine/identity.h"
 #include "host/farm/part_origin.h"
+#include "host/film/first_samples.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
+#include "host/jobs/denoising.h"
 #include "host/jobs/diagnosis.h"
 #include "host/jobs/film_picture.h"
 #include "host/jobs/layers.h"
 #include "host/jobs/periodic_files.h"
 #include "host/jobs/projection.h"
 #include "host/packing/light_planes.h"
+#include "host/reference/denoise.h"
 #include "host/scene/light_sources.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -65,6 +69,8 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
                              static_cast<int>(options.exr.compression));
     if (request.hasMotion)
         whole += "motion vectors\n";
+    if (settings.isDenoised && keepsDenoisingData(settings))
+        whole += fmt::format("denoised: {}\n", reference::denoiserName);
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
 
@@ -77,8 +83,8 @@ PartOrigin originOfPart(const RenderRequest &request, const RenderReport &report
     origin.wholeWidth = scene.loaded.scene.camera.width;
     origin.wholeHeight = scene.loaded.scene.camera.height;
     origin.projection = projectionOf(scene.loaded.scene);
-    for (const Integrator view : scene.views)
-        origin.layers.push_back({view, scene.packed.namesOf(view)});
+    for (const PictureView &view : viewsOf(scene))
+        origin.layers.push_back({view.view, scene.packed.namesOf(view.view), view.isOfDenoiser});
     origin.lightPlanes = lightPlaneNames(scene.packed, scene.loaded.settings);
     origin.provenance = provenanceToJson(report.origin, report.device)
                             .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -110,12 +116,23 @@ bool isPartFinished(const PictureFiles &files, const PreparedScene &scene, const
         return false;
     const std::span<const Crop> squares = begun.squares;
     bool isFinished = finishedWork(*begun.film, squares, settings.samplesPerPixel).isComplete;
+    const std::vector<PictureView> views = viewsOf(scene);
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
-        isFinished = isFinished && finishedWork(begun.layers[i], squares,
-                                                samplesOfView(scene.views[i], settings.samplesPerPixel,
-                                                              settings.areLayersThrough))
-                                       .isComplete;
+        isFinished = isFinished &&
+                     finishedWork(begun.layers[i], squares, samplesOfView(views[i], settings)).isComplete;
     return isFinished;
+}
+
+/// Throws for a checkpoint of a render with more samples, which was ended before it had its first ones.
+void requireFirst(const PictureBeginning &begun, int samplesPerPixel) {
+    const std::uint32_t most =
+        samplesBeyondFirst(*begun.film, begun.squares, static_cast<std::uint32_t>(samplesPerPixel));
+    if (most > 0)
+        throw OverrideError(
+            "spp",
+            fmt::format("found {} and a checkpoint with {} samples in a pixel, of which the denoiser's first "
+                        "ones were not kept; allowed: {} or more",
+                        samplesPerPixel, most, std::bit_ceil(most) + 1));
 }
 
 void resume(const PictureFiles &files, const RenderSession &session, PictureBeginning &begun) {
@@ -145,6 +162,8 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
         finishedWork(resumed->checkpoint.film, begun.squares, samplesPerPixel).sampleCount, begun.rays};
     begun.film = std::move(resumed->checkpoint.film);
     begun.layers = std::move(resumed->checkpoint.layers);
+    if (keepsDenoisingData(scene.loaded.settings))
+        requireFirst(begun, samplesPerPixel);
     begun.isFinished = isPartFinished(files, scene, begun);
 }
 
@@ -159,13 +178,14 @@ class PictureRender {
         const PreparedScene &scene = session_.scene();
         PeriodicFiles snapshots(periodicFiles(), session_.observer());
         const TimeLimit limit(request_.timeLimitSeconds);
-        layers_ = renderViews(session_.backend(), session_.scene(), scene.views,
+        layers_ = renderViews(session_.backend(), session_.scene(), viewsOf(scene),
                               request_.part ? squares_ : std::span<const Crop>(), begun_.layers,
                               session_.observer(), limit);
         const RenderTask task{.name = taskName(),
                               .limit = limit,
                               .snapshots = &snapshots,
-                              .shareOfOthers = shareOutside(scene.crop, squares_)};
+                              .shareOfOthers = shareOutside(scene.crop, squares_),
+                              .keepsFirst = true};
         BackendResult result =
             render(session_.backend(), scene.packed, scene.loaded.settings,
                    begun_.film ? std::move(*begun_.film) : Film(scene.crop), session_.observer(), task);
@@ -197,9 +217,7 @@ class PictureRender {
         for (const ViewFilm &layer : layers_)
             report_.finished.isComplete =
                 report_.finished.isComplete &&
-                finishedWork(layer.film, squares_,
-                             samplesOfView(layer.view, settings.samplesPerPixel, settings.areLayersThrough))
-                    .isComplete;
+                finishedWork(layer.film, squares_, samplesOfView(layer, settings)).isComplete;
         if (result.failure && report_.finished.sampleCount == 0)
             throw Error(*result.failure);
         if (stop && report_.finished.sampleCount == 0)
@@ -235,13 +253,33 @@ class PictureRender {
         begun_.checkpoint->write(film, rays, layers);
     }
 
-    /// Returns as writeFilmPicture() does.
-    std::vector<std::string> writePicture(AtomicFile &file, const Film &film) const {
+    /// If the picture is to be denoised, and can be. A failure leaves it noisy.
+    std::optional<Image> denoisedColours(const Film &film, FinishedPicture &finished) {
+        const RenderSettings &settings = session_.scene().loaded.settings;
+        if (!settings.isDenoised || !keepsDenoisingData(settings))
+            return std::nullopt;
+        const Clock::time_point start = Clock::now();
+        std::optional<Image> clean;
+        try {
+            if ((clean = denoised(session_.backend(), film, layers_, session_.observer())))
+                report_.denoiser = reference::denoiserName;
+        } catch (const Error &error) {
+            session_.observer().warning("the picture stays noisy, as the denoiser failed");
+            finished.failure.emplace(error);
+        }
+        report_.denoiseSeconds = secondsSince(start);
+        return clean;
+    }
+
+    /// Returns as writeFilmPicture() does. `clean`: the denoised colours, or null.
+    std::vector<std::string> writePicture(AtomicFile &file, const Film &film, const Image *clean) const {
         const LoadedScene &loaded = session_.scene().loaded;
-        FilmPicture picture{.film = film, .views = layers_};
+        FilmPicture picture{.film = film, .views = layers_, .clean = clean};
         picture.wholeWidth = loaded.scene.camera.width;
         picture.wholeHeight = loaded.scene.camera.height;
         picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
+        if (clean != nullptr)
+            picture.attributes.emplace_back(denoisedAttribute, reference::denoiserName);
         if (!request_.view.empty())
             picture.attributes.emplace_back("view", request_.view);
         if (request_.frame) {
@@ -265,7 +303,7 @@ class PictureRender {
         if (request_.partialSeconds)
             files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
                                  AtomicFile partial(request_.output);
-                                 writePicture(partial, film); // the last one tells what is lost
+                                 writePicture(partial, film, nullptr); // the last one tells what is lost
                                  partial.commit();
                              }});
         return files;
@@ -288,7 +326,9 @@ class PictureRender {
         if (files_.image) {
             if (request_.hasMotion)
                 motion_ = motionVectors(session_.scene(), session_.loadNeighbours());
-            const std::vector<std::string> losses = writePicture(*files_.image, film);
+            const std::optional<Image> clean = denoisedColours(film, finished);
+            const std::vector<std::string> losses =
+                writePicture(*files_.image, film, clean ? &*clean : nullptr);
             files_.image->commit();
             for (const std::string &loss : losses)
                 session_.observer().warning(fmt::format("{}: {}", request_.output, loss));
@@ -296,7 +336,7 @@ class PictureRender {
             std::error_code ignored; // the older generation is of no use to who merges parts
             std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);
         }
-        report_.writeSeconds = secondsSince(start);
+        report_.writeSeconds = secondsSince(start) - report_.denoiseSeconds;
     }
 
     void writeReport() {
@@ -344,8 +384,10 @@ void requireRoom(const PictureFiles &files, const PreparedScene &scene) {
         requirePngSize(files.request.output, crop.width(), crop.height());
     const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
     const unsigned copies = isCopied ? 2 : 1;
-    requireFilmMemory(crop, copies + static_cast<unsigned>(scene.views.size()),
-                      copies * lightPlanesOf(scene.packed, scene.loaded.settings).count());
+    const RenderSettings &settings = scene.loaded.settings;
+    requireFilmMemory(crop, copies + static_cast<unsigned>(viewsOf(scene).size()),
+                      copies * lightPlanesOf(scene.packed, settings).count(),
+                      denoisingBytes(settings, crop, copies));
 }
 
 PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {

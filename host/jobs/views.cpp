@@ -5,12 +5,17 @@
 #include "host/image/contact_sheet.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
+#include "host/jobs/denoising.h"
+#include "host/jobs/layers.h"
 #include "host/report/render_report.h"
 #include "host/scene/scene_nodes.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <set>
 
 namespace hyalite::core {
@@ -66,6 +71,14 @@ std::vector<Attribute> attributesOfSheet(const ViewSeries &series, const RenderS
     attributes.emplace_back("views", names);
     attributes.emplace_back("pixels", pixelHash(levels));
     return attributes;
+}
+
+/// Of a sheet, which has no layers.
+std::vector<PictureView> viewsToDenoise(const PreparedScene &scene) {
+    std::vector<PictureView> views;
+    if (scene.loaded.settings.isDenoised)
+        std::ranges::copy_if(viewsOf(scene), std::back_inserter(views), &PictureView::isOfDenoiser);
+    return views;
 }
 
 } // namespace
@@ -143,28 +156,35 @@ FinishedSheet renderSheet(const ViewSeries &series, const RenderRequest &request
     const SheetSize size =
         sheetSize(static_cast<int>(series.views().size()), scene.crop.width(), scene.crop.height());
     requirePngSize(file.path(), size.width, size.height);
-    requireFilmMemory(scene.crop, 1);
+    requireFilmMemory(scene.crop, 1 + static_cast<unsigned>(viewsToDenoise(scene).size()), 0,
+                      denoisingBytes(settings, scene.crop, 1));
     const TimeLimit limit(request.timeLimitSeconds);
     FinishedSheet finished;
     std::vector<SheetTile> tiles;
     for (const View &view : series.views()) {
         series.moveTo(view, session);
         Film film(scene.crop);
+        std::optional<Image> clean;
         if (tiles.empty() || !limit.isReached()) {
-            BackendResult result =
-                unlessFailed(render(session.backend(), scene.packed, settings, std::move(film),
-                                    session.observer(), {.name = "view " + view.name, .limit = limit}));
+            const std::vector<ViewFilm> views = renderViews(session.backend(), scene, viewsToDenoise(scene),
+                                                            {}, {}, session.observer(), limit);
+            BackendResult result = unlessFailed(
+                render(session.backend(), scene.packed, settings, std::move(film), session.observer(),
+                       {.name = "view " + view.name, .limit = limit, .keepsFirst = !views.empty()}));
             if (const std::optional<Stop> stop = session.observer().wantsStop())
                 throw Error(stop->kind, fmt::format("stopped by {} in view {} of a sheet: nothing is written",
                                                     stop->by, view.name));
             finished.renderSeconds += result.timing.renderSeconds;
             finished.rayCount += result.rays.total();
             film = std::move(result.film);
+            if (!views.empty())
+                clean = denoised(session.backend(), film, views, session.observer());
         }
         const bool isComplete = finishedWork(film, {&scene.crop, 1}, settings.samplesPerPixel).isComplete;
         finished.viewCount += isComplete ? 1 : 0;
-        tiles.push_back({isComplete ? view.name : view.name + " (unfinished)",
-                         drawFilm(film, settings, request.file.options().tone)});
+        tiles.push_back(
+            {isComplete ? view.name : view.name + " (unfinished)",
+             drawFilm(film, clean ? *clean : film.toImage(), settings, request.file.options().tone)});
     }
     const Drawing sheet = drawSheet(tiles);
     finished.width = sheet.width;

@@ -26,7 +26,7 @@ ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,
         BackendResult result = unlessFailed(render(backend, scene.packed, scene.loaded.settings, scene.crop,
                                                    observer, {.name = backend.name()}));
         const std::vector<ViewFilm> views =
-            renderViews(backend, scene, scene.views, {}, {}, observer, TimeLimit());
+            renderViews(backend, scene, layerViewsOf(scene), {}, {}, observer, TimeLimit());
         LoadedImage image{result.film.toImage(), Encoding::Linear,
                           alphasOf(result.film, views, scene.loaded.settings)};
         return std::pair(std::move(result), std::move(image));

@@ -4,7 +4,12 @@
 #include "host/film/noisy_picture.h"
 #include "host/image/image.h"
 
+#include <string_view>
+
 namespace hyalite::core::reference {
+
+/// Of the result: another version gives other colours. Pictures say it.
+inline constexpr std::string_view denoiserName = "hyalite denoiser 1";
 
 /// The picture without most of its noise. The result does not depend on the number of threads; 0: chosen by OpenMP.
 [[nodiscard]] Image denoise(const NoisyPicture &picture, int threadCount = 0);

@@ -131,7 +131,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
           tallies_(rowOf(settings.integrator).tallies()), result_{std::move(begun), {}, {}},
           pixelCount_(static_cast<std::int64_t>(result_.film.pixels.size())) {
         for (const layout::FilmPixel &pixel : result_.film.pixels)
-            finishedSamples_ += pixel.sampleCount;
+            finishedSamples_ += std::min(pixel.sampleCount, sampleCount_); // some may have more
     }
 
     [[nodiscard]] Result render() {

@@ -51,6 +51,9 @@ std::string formatReport(const RenderReport &report) {
         json["resumed"] = {{"checkpoint", report.resumed->checkpoint},
                            {"samples", report.resumed->sampleCount},
                            {"rays", raysToJson(report.resumed->rays)}};
+    json["denoised"] = nullptr;
+    if (!report.denoiser.empty())
+        json["denoised"] = report.denoiser;
     json["faults"] = report.faults;
     if (!report.shares.empty()) {
         json["shares"] = nlohmann::ordered_json::array();
@@ -75,6 +78,7 @@ std::string formatReport(const RenderReport &report) {
                        {"upload", report.timing.uploadSeconds},
                        {"pipeline", report.timing.pipelineSeconds},
                        {"render", report.timing.renderSeconds},
+                       {"denoise", report.denoiseSeconds},
                        {"write", report.writeSeconds},
                        {"total", report.totalSeconds}};
     return jsonText(json);

@@ -44,6 +44,7 @@ struct RenderReport {
     std::vector<std::string> faults;
     std::string stoppedBy; ///< what ended the render early, or empty
     std::optional<ResumedWork> resumed;
+    std::string denoiser;              ///< that made the colours of the file, or empty
     std::vector<RendererShare> shares; ///< of several renderers, if there are several
     /// Of layers of numbers: the layer's name, and the names of the numbers from 1 on.
     std::vector<std::pair<std::string, std::vector<std::string>>> numbers;
@@ -52,6 +53,7 @@ struct RenderReport {
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;
+    double denoiseSeconds = 0.0;
     double writeSeconds = 0.0;
     double totalSeconds = 0.0;
 };

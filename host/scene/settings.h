@@ -37,9 +37,11 @@ struct RenderSettings {
     bool isClearGlassTransparent = false; ///< with it: so is the background through clear glass
     /// Normal, Depth, Albedo: of what mirrors and clear glass show, as means of the image's own samples.
     bool areLayersThrough = false;
-    bool hasLightLayers = false; ///< Path: the film keeps layers of light by class, ...
-    bool hasLightGroups = false; ///< ... and by group of emitters
-    double exposureStops = 0.0;  ///< radiance is multiplied by 2^exposureStops before the tone curve
+    bool hasLightLayers = false;   ///< Path: the film keeps layers of light by class, ...
+    bool hasLightGroups = false;   ///< ... and by group of emitters
+    bool isDenoised = false;       ///< Whitted, Path: the denoiser filters the picture, ...
+    bool hasDenoisingData = false; ///< ... or the file has what it needs
+    double exposureStops = 0.0;    ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
@@ -55,6 +57,12 @@ struct RenderSettings {
 /// Whether a view of an image with these settings looks through mirrors and glass.
 [[nodiscard]] inline bool looksThrough(Integrator view, const RenderSettings &settings) {
     return settings.areLayersThrough && rowOf(view).canLookThrough;
+}
+
+/// Whether a render keeps what the denoiser needs: first samples, and views that look through mirrors and glass.
+[[nodiscard]] inline bool keepsDenoisingData(const RenderSettings &settings) {
+    return (settings.isDenoised || settings.hasDenoisingData) && rowOf(settings.integrator).showsLight &&
+           !settings.isWorkShown;
 }
 
 /// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.

@@ -139,6 +139,14 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
      "layers of an EXR that add up to the picture: the light of each group that lights, materials and the "
      "environment name by `lightGroup`",
      pathOnly},
+    {"denoise", "denoise", FlagSetting{&RenderSettings::isDenoised}, Changes::Picture, imageGroup,
+     "the picture without most of its noise, as means of pixels that are alike in light, albedo, normal and "
+     "depth; an EXR has the noisy colours and all data that this needs, too",
+     ofLight},
+    {"denoisingData", "denoising-data", FlagSetting{&RenderSettings::hasDenoisingData}, Changes::Picture,
+     imageGroup,
+     "all data that a denoiser needs as layers of an EXR, and no other picture: it can be denoised later",
+     ofLight},
     {"exposure", "exposure", NumberSetting<double>{&RenderSettings::exposureStops, {-100.0, 100.0}},
      Changes::Picture, imageGroup,
      "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG"},

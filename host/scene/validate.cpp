@@ -344,7 +344,11 @@ void validateSettings(const RenderSettings &settings, const Scene &scene, const 
                        "with the sampler sobol");
     if (settings.isClearGlassTransparent && !settings.hasAlpha)
         checked.refuse("alphaThroughGlass", "true without alpha", "with alpha");
-    if (settings.integrator == Integrator::Path || settings.areLayersThrough)
+    if (keepsDenoisingData(settings) && settings.samplesPerPixel < 2)
+        checked.refuse(settings.isDenoised ? "denoise" : "denoisingData", "true with 1 sample per pixel",
+                       "with spp 2 or more: the denoiser compares the first samples with all");
+    const bool areViewsThrough = settings.areLayersThrough || keepsDenoisingData(settings);
+    if (settings.integrator == Integrator::Path || areViewsThrough)
         Checked(sourceName, "scene")
             .atMost(limits::mediumCount,
                     static_cast<std::size_t>(std::ranges::count_if(scene.materials, isGlass)),

@@ -88,6 +88,27 @@ TEST(ApiRenderer, GivesLayers) {
     });
 }
 
+TEST(ApiRenderer, DenoisesAndKeepsTheData) {
+    Settings settings = tiny;
+    settings.set("integrator", "path").set("denoise", true);
+    const Image clean = device().render(Scene::load("metals"), settings, {.layers = {"depth"}});
+    const Image noisy = device().render(Scene::load("metals"), Settings(tiny).set("integrator", "path"));
+    std::vector<std::string> names;
+    for (const Layer &layer : clean.layers())
+        names.push_back(layer.name + "." + layer.channels);
+    EXPECT_EQ(names, (std::vector<std::string>{"noisy.RGB", "denoising_first.RGB",
+                                               "denoising_first_samples.Y", "depth.Z", "denoising_albedo.RGB",
+                                               "denoising_normal.XYZ", "denoising_depth.Y"}));
+    EXPECT_TRUE(haveEqualBits(clean.layers()[0].values, noisy.pixels()));
+    EXPECT_TRUE(
+        haveEqualBits(Renderer("cpu").render(Scene::load("metals"), settings).pixels(), clean.pixels()));
+    EXPECT_NE(clean.provenance().find("\"denoised\": \"hyalite denoiser 1\""), std::string::npos)
+        << clean.provenance();
+    expectError(ErrorKind::Usage, "denoise: found true with 1 sample", [&] {
+        static_cast<void>(device().render(Scene::load("metals"), Settings(settings).set("spp", 1)));
+    });
+}
+
 // The last scene stays; what has changed about it must be seen all the same.
 TEST(ApiRenderer, ShowsEachViewAndEachChange) {
     Renderer cpu("cpu");

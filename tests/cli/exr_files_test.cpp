@@ -150,6 +150,7 @@ worldToNDC (type m44f):
         "commandLine device.arithmetic device.driver device.equalBits device.name image.height image.width "
         "pixels "
         "scene sceneHash settings.alpha settings.alphaThroughGlass settings.bvh settings.clamp "
+        "settings.denoise settings.denoisingData "
         "settings.exposure settings.filter settings.integrator "
         "settings.layersThrough settings.leafSize settings.lightChoice settings.lightGroups "
         "settings.lightLayers settings.maxDepth "

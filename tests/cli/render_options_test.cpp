@@ -387,6 +387,7 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"filter", "box"},         {"lightChoice", "auto"},
                                 {"alpha", false},          {"alphaThroughGlass", false},
                                 {"lightLayers", false},    {"lightGroups", false},
+                                {"denoise", false},        {"denoisingData", false},
                                 {"layersThrough", false}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden =
@@ -415,6 +416,8 @@ TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
                                 {"alphaThroughGlass", false},
                                 {"lightLayers", false},
                                 {"lightGroups", false},
+                                {"denoise", false},
+                                {"denoisingData", false},
                                 {"layersThrough", false}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});

@@ -35,8 +35,8 @@ TEST_F(RenderReport, HasAllItsKeys) {
         const nlohmann::json report = renderReport("sheet.json" + smallReported + " --device " + device);
         EXPECT_EQ(keysOf(report),
                   (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
-                                         "image", "settings", "triangles", "finished", "faults", "resumed",
-                                         "rays", "dispatches", "deviceBytes", "seconds"}));
+                                         "image", "settings", "triangles", "finished", "denoised", "faults",
+                                         "resumed", "rays", "dispatches", "deviceBytes", "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
         std::set<std::string> ofDevice{"name", "driver", "arithmetic", "equalBits"};
@@ -48,11 +48,12 @@ TEST_F(RenderReport, HasAllItsKeys) {
                   (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
                                          "leafSize", "sampler", "filter", "seed", "clamp", "alpha",
                                          "alphaThroughGlass", "layersThrough", "lightLayers", "lightGroups",
-                                         "exposure", "lightChoice"}));
+                                         "denoise", "denoisingData", "exposure", "lightChoice"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),
-                  (std::set<std::string>{"load", "build", "upload", "pipeline", "render", "write", "total"}));
+                  (std::set<std::string>{"load", "build", "upload", "pipeline", "render", "denoise", "write",
+                                         "total"}));
     }
 }
 

@@ -66,7 +66,7 @@ TEST_F(Usage, VersionIsOneLine) {
     EXPECT_TRUE(std::regex_match(outcome.output, std::regex("hyalite [0-9]+\\.[0-9]+\\.[0-9]+\n")))
         << outcome;
     EXPECT_EQ(outcome.errors, "");
-    for (const char *command : {"render", "compare", "diff", "tonemap", "devices", "inspect"})
+    for (const char *command : {"render", "compare", "denoise", "diff", "tonemap", "devices", "inspect"})
         EXPECT_EQ(run(std::string(command) + " --version").output, outcome.output);
 }
 

@@ -197,8 +197,27 @@ TEST_F(CheckpointTest, HugeSizesAreRefusedByTheSizeOfTheFile) {
             EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
     // The part, the samples that are wanted, layers, and bytes of the origin.
     for (const std::uint32_t word : {2u, 1u << 17, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu})
-        for (const std::size_t offset : {64u, 68u, 72u, 76u, 80u, 84u})
+        for (const std::size_t offset : {64u, 68u, 72u, 76u, 80u, 84u, 88u})
             EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
+}
+
+TEST_F(CheckpointTest, KeepsFirstSamplesOfAllAndOfParts) {
+    Film film = filmOf(16);
+    film.first.resize(film.pixels.size());
+    for (std::size_t i = 0; i < film.first.size(); ++i)
+        film.first[i] = {glm::vec3(0.25f * static_cast<float>(i)), 8};
+    CheckpointWriter(path, identity, subject, false).write(film, {});
+    EXPECT_EQ(differingPixelCount(readCheckpoint(path, identity, subject).film, film), 0u);
+    EXPECT_EQ(readCheckpointFile(path).film.first.size(), 6u);
+    const CheckpointSubject part{{2, 5, 1, 3}, {1, 1}, 16, "made here"};
+    CheckpointWriter(path, identity, part, false).write(film, {});
+    const Checkpoint resumed = readCheckpoint(path, identity, part);
+    EXPECT_EQ(resumed.film.first[5].sampleCount, 8u);
+    film.first[5].mean.y = 7.0f;
+    EXPECT_EQ(firstDifference(resumed.film, film), 5u);
+    film.first.clear();
+    CheckpointWriter(path, identity, subject, false).write(film, {});
+    EXPECT_TRUE(readCheckpoint(path, identity, subject).film.first.empty());
 }
 
 TEST_F(CheckpointTest, APartHasItsOwnPixelsAndLayersOnly) {

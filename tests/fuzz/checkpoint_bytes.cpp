@@ -14,7 +14,7 @@ namespace hyalite::core::fuzz {
 namespace {
 
 constexpr std::size_t magicBytes = 19;
-constexpr std::size_t headBytes = magicBytes + 88;
+constexpr std::size_t headBytes = magicBytes + 96;
 
 std::uint32_t numberAt(std::string_view bytes, std::size_t offset) {
     std::uint32_t number = 0;

@@ -1,6 +1,7 @@
 // OpenEXR pictures as `hyalite diff` and `hyalite tonemap` read them, and their layers as `hyalite diff --statistical`
 // does. The library behind it is not instrumented: what it does to the heap is seen, and how much of that it takes.
 #include "host/image/exr.h"
+#include "host/image/exr_picture.h"
 #include "host/image/image_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/heap_peak.h"
@@ -30,6 +31,10 @@ void readOthers(const std::filesystem::path &path, std::size_t sizeBytes) {
                 "alpha of some pixels");
     }));
     static_cast<void>(refusalOf([&] { (void)readExrWhole(InputFile(path), "samples"); }));
+    static_cast<void>(refusalOf([&] {
+        const ExrPicture read = readExrPicture(InputFile(path));
+        require(!read.channels.empty() && read.crop.width() <= read.wholeWidth, "a picture without channels");
+    }));
     require(peak.bytes() <= readingBytesMax(sizeBytes), "more memory than may be taken for such a file");
 }
 

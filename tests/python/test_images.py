@@ -25,6 +25,16 @@ def test_arrays_have_the_shape_of_the_image(image):
     assert (image.samples == 4).all()
 
 
+def test_denoised_images_keep_their_samples_and_the_data(renderer, image):
+    clean = renderer.render("cornell", width=24, height=16, spp=4, layers=["depth"], denoise=True)
+    assert list(clean.layers) == ["noisy", "denoising_first", "denoising_first_samples", "depth",
+                                  "denoising_albedo", "denoising_normal", "denoising_depth"]
+    assert equal(clean.layers["noisy"], image.pixels) and equal(clean.variance, image.variance)
+    assert (clean.layers["denoising_first_samples"] == 2).all()
+    assert clean.provenance["denoised"] == "hyalite denoiser 1"
+    assert "denoised" not in image.provenance
+
+
 def test_pixels_are_a_view_that_nobody_can_write(image):
     assert np.shares_memory(image.pixels, image.pixels)
     for array in (image.pixels, image.variance, image.samples, *image.layers.values()):

@@ -1,0 +1,40 @@
+#include "host/film/first_samples.h"
+
+#include "host/film/partition.h"
+
+#include <algorithm>
+
+namespace hyalite::core {
+
+void takeFirst(const Film &film, std::uint32_t sampleCount, std::vector<FirstSamples> &first) {
+    for (std::size_t i = 0; i < film.pixels.size(); ++i)
+        if (film.pixels[i].sampleCount == sampleCount)
+            first[i] = {meanOf(film.pixels[i]), sampleCount};
+}
+
+bool hasFirst(const Film &film, std::span<const Crop> squares) {
+    const FilmRecords records = recordsIn(film, squares);
+    return !records.first.empty() &&
+           std::ranges::equal(records.first, records.pixels,
+                              [](const FirstSamples &first, const layout::FilmPixel &pixel) {
+                                  return first.sampleCount > 0 && first.sampleCount < pixel.sampleCount;
+                              });
+}
+
+bool hasFirst(const Film &film) { return hasFirst(film, {&film.crop, 1}); }
+
+std::uint32_t samplesBeyondFirst(const Film &film, std::span<const Crop> squares,
+                                 std::uint32_t samplesPerPixel) {
+    const std::uint32_t firstCount = firstSampleCount(samplesPerPixel);
+    const FilmRecords records = recordsIn(film, squares);
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < records.pixels.size(); ++i) {
+        const std::uint32_t count = records.pixels[i].sampleCount;
+        const bool isKept = !records.first.empty() && records.first[i].sampleCount == firstCount;
+        if (count > firstCount && !isKept)
+            most = std::max(most, count);
+    }
+    return most;
+}
+
+} // namespace hyalite::core
