@@ -28,3 +28,4 @@
 #include "shaders/lights/environment.glsl"
 #include "shaders/lights/light_tree.glsl"
 #include "shaders/lights/emitters.glsl"
+#include "shaders/post/denoiser.glsl"

@@ -1,5 +1,7 @@
 #include "host/engine/cpu_backend.h"
 
+#include "host/reference/denoise.h"
+
 #include <string>
 #include <utility>
 
@@ -54,6 +56,9 @@ class CpuBackend : public Backend {
                                                         const glm::uvec2 &pixel,
                                                         std::uint32_t sampleIndex) override {
         return reference::trace(scene, settings, pixel, sampleIndex, precision_);
+    }
+    [[nodiscard]] Image denoise(const NoisyPicture &picture) override {
+        return reference::denoise(picture, threadCount_);
     }
 
   private:

@@ -62,6 +62,7 @@ class DeviceBackend : public Backend {
                                                         std::uint32_t sampleIndex) override {
         return renderer_.trace(scene, settings, pixel, sampleIndex);
     }
+    [[nodiscard]] Image denoise(const NoisyPicture &picture) override { return renderer_.denoise(picture); }
 
   private:
     DeviceBackend(const gpu::DeviceInfo &device, const gpu::RenderConfig &config, const Tuning &tuning,

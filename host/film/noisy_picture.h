@@ -1,8 +1,10 @@
-// A noisy picture, as the denoiser reads it.
+// A noisy picture, as the denoiser reads it, and its tiles.
 #pragma once
 
+#include "host/image/image.h"
 #include "shaders/layout/denoiser_records.h"
 
+#include <functional>
 #include <vector>
 
 namespace hyalite::core {
@@ -13,5 +15,16 @@ struct NoisyPicture {
     int height = 0;
     std::vector<layout::NoisyPixel> pixels{};
 };
+
+/// Side of a tile's own pixels where a renderer does not say otherwise.
+inline constexpr int denoiserTileSide = 512;
+
+/// The picture without noise, by tiles with the pixels around them that decide theirs, which `denoiseTile` gets: with
+/// colours of a mean luminance between 1/2 and 1, and no number that is tiny, huge or NaN. It returns the colours of all
+/// pixels of the tile. Pixels whose own colour is out of range stay as they are. The result does not depend on `side`,
+/// as long as it is positive.
+[[nodiscard]] Image
+denoisedByTiles(const NoisyPicture &picture, int side,
+                const std::function<std::vector<glm::vec3>(const NoisyPicture &tile)> &denoiseTile);
 
 } // namespace hyalite::core

@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "host/gpu/denoiser.h"
 #include "host/gpu/kernel_needs.h"
 #include "host/gpu/lane_exchange.h"
 #include "host/gpu/pipeline_cache.h"
@@ -403,6 +404,21 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     tiles.makeKernel();
     (void)tiles.run({});
     return tiles.readTrace();
+}
+
+Image Renderer::denoise(const NoisyPicture &picture) {
+    const auto attempt = [&] {
+        if (!state_->device)
+            state_->reopen();
+        return gpu::denoise(*state_->device, state_->arithmetic.isNative, picture);
+    };
+    try {
+        return attempt();
+    } catch (const DeviceFault &) {
+        state_->forget();
+        state_->device.reset();
+    }
+    return attempt();
 }
 
 } // namespace hyalite::core::gpu

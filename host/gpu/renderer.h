@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/film/film.h"
+#include "host/film/noisy_picture.h"
 #include "host/film/ray_counts.h"
 #include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
@@ -72,6 +73,10 @@ class Renderer {
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
                                                         const RenderSettings &settings,
                                                         const glm::uvec2 &pixel, std::uint32_t sampleIndex);
+
+    /// The picture without most of its noise. If a Vulkan call fails, the device is opened once more. Throws
+    /// Error{LimitExceeded} if the device is too small for it, and DeviceFault.
+    [[nodiscard]] Image denoise(const NoisyPicture &picture);
 
   private:
     struct State;

@@ -1,0 +1,89 @@
+#include "host/gpu/denoiser.h"
+
+#include "host/base/error.h"
+#include "host/gpu/kernel.h"
+#include "shaders/embedded_kernels.h"
+
+#include <fmt/format.h>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace hyalite::core::gpu {
+
+namespace {
+
+using layout::denoiserBindingCount;
+
+constexpr std::uint32_t workgroupSize = 64;
+constexpr std::size_t texelBytes = 16;
+constexpr int margin = static_cast<int>(layout::denoiserMargin);
+
+/// Texels of a pixel in the buffer at each binding.
+constexpr std::array<std::size_t, denoiserBindingCount> rows{
+    layout::noisyRows, layout::splitRows, 1, layout::guideRows, layout::estimateCount, 1, 1};
+constexpr std::array<const char *, denoiserBindingCount> names{
+    "the noisy tile",      "the halves of the tile",  "the variances of the tile", "the guides of the tile",
+    "the tile's estimates", "the tile's choices",     "the denoised tile"};
+constexpr std::array<const char *, 6> passes{"denoiserSplit",      "denoiserVariance", "denoiserGuides",
+                                             "denoiserRegression", "denoiserChoice",   "denoiserBlend"};
+
+/// Side of a tile's own pixels, whose texels the device can address.
+int tileSideFor(const DeviceInfo &device) {
+    if (device.maxStorageImagesPerStage < denoiserBindingCount)
+        throw Error(ErrorKind::LimitExceeded,
+                    fmt::format("{} allows {} storage texel buffers and images in a kernel, and the denoiser "
+                                "needs {}",
+                                device.name, device.maxStorageImagesPerStage, denoiserBindingCount),
+                    Remedy::ReferenceInstead);
+    const auto most = static_cast<int>(std::sqrt(static_cast<double>(device.maxTexelBufferElements) /
+                                                 static_cast<double>(std::ranges::max(rows))));
+    return std::min(denoiserTileSide, most - 2 * margin); // Vulkan guarantees 114 - 2 margins
+}
+
+class TileDenoiser {
+  public:
+    TileDenoiser(Device &device, bool isDivisionExact, std::size_t pixelCount) {
+        for (std::size_t i = 0; i < denoiserBindingCount; ++i)
+            buffers_.emplace_back(device, names[i], BufferUse::Texels, pixelCount * rows[i] * texelBytes);
+        std::vector<const Buffer *> bound;
+        for (const Buffer &buffer : buffers_)
+            bound.push_back(&buffer);
+        SpecializationConstants constants{};
+        constants[layout::constantWorkgroupSize] = workgroupSize;
+        constants[layout::constantExactDivision] = isDivisionExact;
+        for (const char *pass : passes)
+            kernels_.emplace_back(device, pass, embeddedKernel(pass), constants, bound);
+    }
+
+    [[nodiscard]] std::vector<glm::vec3> denoised(const NoisyPicture &tile) {
+        buffers_[layout::bindingNoisy].upload(std::as_bytes(std::span(tile.pixels)));
+        layout::DispatchConstants dispatch{};
+        dispatch.tileWidth = static_cast<std::uint32_t>(tile.width);
+        dispatch.tileHeight = static_cast<std::uint32_t>(tile.height);
+        const auto pixelCount = static_cast<std::uint32_t>(tile.pixels.size());
+        for (Kernel &kernel : kernels_)
+            kernel.run(dispatch, (pixelCount + workgroupSize - 1) / workgroupSize);
+        std::vector<glm::vec4> texels(pixelCount);
+        buffers_[layout::bindingDenoised].download(std::as_writable_bytes(std::span(texels)));
+        return {texels.begin(), texels.end()};
+    }
+
+  private:
+    std::vector<Buffer> buffers_;
+    std::vector<Kernel> kernels_;
+};
+
+} // namespace
+
+Image denoise(Device &device, bool isDivisionExact, const NoisyPicture &picture) {
+    const int side = tileSideFor(device.info());
+    const auto most = [side](int size) { return static_cast<std::size_t>(std::min(size, side + 2 * margin)); };
+    TileDenoiser tiles(device, isDivisionExact, most(picture.width) * most(picture.height));
+    return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
+}
+
+} // namespace hyalite::core::gpu

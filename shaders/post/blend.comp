@@ -1,0 +1,23 @@
+// Last pass of the denoiser: the estimates of a pixel, by the shares of the neighbourhood that has chosen them.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/post/passes.glsl"
+
+void main() {
+    if (!beginPass())
+        return;
+    float counts[estimateCount];
+    [[unroll]] for (int i = 0; i < estimateCount; ++i)
+        counts[i] = 0.0;
+    for (int dy = -choiceRadius; dy <= choiceRadius; ++dy)
+        [[unroll]] for (int dx = -choiceRadius; dx <= choiceRadius; ++dx) {
+            uint choice = imageLoad(choiceTexels, placeOf(own + ivec2(dx, dy))).x;
+            [[unroll]] for (int i = 0; i < estimateCount; ++i)
+                counts[i] += choice == uint(i) ? 1.0 : 0.0;
+        }
+    int place = placeOf(own);
+    vec3 sum = vec3(0.0);
+    [[unroll]] for (int i = 0; i < estimateCount; ++i)
+        sum += loadVector(estimateTexels, place * estimateCount + i) * counts[i];
+    storeVector(denoisedTexels, place, greater(sum * (1.0 / 25.0), vec3(0.0)));
+}

@@ -1,0 +1,85 @@
+// What the denoiser makes of numbers; its passes, here and on the host (host/reference/denoise.cpp), say of which.
+//
+// B. Bitterli, F. Rousselle, B. Moon, J. A. Iglesias-Guitian, D. Adler, K. Mitchell, W. Jarosz, J. Novak, "Nonlinearly
+// Weighted First-order Regression for Denoising Monte Carlo Renderings", EGSR 2016: local regression on albedo, normal
+// and depth, by weights from the colours of the other half of the samples, in two bandwidths.
+
+// 1/x within 3e-4 of it, for x in [1e-30, 1e30]: an estimate by the exponent, and two of Newton's steps.
+float roughInverse(float x) {
+    float estimate = intBitsToFloat(0x7EF311C7 - floatBitsToInt(x));
+    estimate = estimate * (2.0 - x * estimate);
+    return estimate * (2.0 - x * estimate);
+}
+
+// The factor on a pixel that is brighter than its 24 neighbours without a reason: at most a limit beyond the third
+// largest of them is left, unless so much is more than two standard deviations of the pixel's own mean. `sum` and
+// `largest` are of the neighbours' luminances.
+float fireflyFactor(float luminance, float variance, float sum, vec3 largest) {
+    float mean = (sum - largest.x - largest.y - largest.z) * (1.0 / 21.0);
+    float limit = largest.z + 3.0 * (largest.z - mean) + 1e-4;
+    float beyond = luminance - limit;
+    return beyond > 0.0 && beyond * beyond < 4.0 * variance ? divide(limit, luminance) : 1.0;
+}
+
+// The three largest numbers that are known with one more.
+vec3 withLargest(vec3 largest, float x) {
+    float first = greater(largest.x, x);
+    float rest = lesser(largest.x, x);
+    float second = greater(largest.y, rest);
+    rest = lesser(largest.y, rest);
+    return vec3(first, second, greater(largest.z, rest));
+}
+
+// The variance of a mean, whose samples are better spread than independent ones: `variance` and `squares`, that of the
+// two halves' means about it, are sums over a neighbourhood.
+float varianceRatio(float squares, float variance) {
+    return lesser(greater(divide(squares, variance + 1e-12), 0.05), 1.5);
+}
+
+// How far two colours are apart beyond their variances, in units of these: around 0 for two estimates of one colour.
+float colourDistance(vec3 a, vec3 b, vec3 varianceA, vec3 varianceB) {
+    vec3 difference = a - b;
+    vec3 both = varianceA + varianceB;
+    vec3 beyond = difference * difference - (varianceA + lesser(varianceA, varianceB));
+    return (beyond.x * roughInverse(both.x) + beyond.y * roughInverse(both.y) + beyond.z * roughInverse(both.z)) *
+           (1.0 / 3.0);
+}
+
+// Of two pixels, by the distances of means around them and of themselves, which are noisier.
+float jointDistance(float around, float between) {
+    return greater(greater(around, between - 3.0), 0.0);
+}
+
+// The weight of a neighbour in the wide and in the narrow bandwidth, of which the standard deviation is 2^-1.5 times as
+// large. Small weights are 0: no product of them is subnormal.
+float wideWeight(float distance) {
+    float weight = expNegative(0.5 * distance);
+    return weight < 1e-6 ? 0.0 : weight;
+}
+
+float narrowWeight(float wide) {
+    float weight = wide * wide;
+    weight = weight * weight;
+    weight = weight * weight;
+    return weight < 1e-6 ? 0.0 : weight;
+}
+
+// The difference of a feature, or 0 where it is none.
+float featureDifference(float neighbour, float own) {
+    float difference = neighbour - own;
+    return abs(difference) < 1e-9 ? 0.0 : difference;
+}
+
+// That of depths, of any unit, in [-1, 1].
+float depthDifference(float neighbour, float own) {
+    return featureDifference(neighbour, own) * roughInverse(neighbour + own + 1e-9);
+}
+
+// The relative squared error of an estimate, up to a sum that is the same for all estimates: by the product of what the
+// two halves say, whose noise is independent, and the estimate's variance.
+float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance) {
+    vec3 squared = (estimate - first) * (estimate - second) + 2.0 * variance;
+    vec3 scale = estimate * estimate + 0.01;
+    return withoutTiny(squared.x * roughInverse(scale.x) + squared.y * roughInverse(scale.y) +
+                       squared.z * roughInverse(scale.z));
+}

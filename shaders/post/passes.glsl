@@ -1,0 +1,54 @@
+// The beginning of every pass of the denoiser: an invocation does a pixel of the tile. What passes hand on lies in texels
+// of four words, several for a pixel (shaders/layout/denoiser_records.h), as drivers on CPUs read those quickly.
+#extension GL_EXT_control_flow_attributes : require
+
+#include "shaders/layout/layout.h"
+#include "shaders/layout/denoiser_records.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(push_constant) uniform DispatchBlock { DispatchConstants dispatchConstants; };
+layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
+
+layout(set = 0, binding = bindingNoisy, rgba32ui) uniform restrict readonly uimageBuffer noisyTexels;
+layout(set = 0, binding = bindingSplit, rgba32ui) uniform restrict uimageBuffer splitTexels;
+layout(set = 0, binding = bindingVariances, rgba32ui) uniform restrict uimageBuffer varianceTexels;
+layout(set = 0, binding = bindingGuides, rgba32ui) uniform restrict uimageBuffer guideTexels;
+layout(set = 0, binding = bindingEstimates, rgba32ui) uniform restrict uimageBuffer estimateTexels;
+layout(set = 0, binding = bindingChoices, rgba32ui) uniform restrict uimageBuffer choiceTexels;
+layout(set = 0, binding = bindingDenoised, rgba32ui) uniform restrict writeonly uimageBuffer denoisedTexels;
+
+#include "shaders/math/arithmetic.glsl"
+#include "shaders/math/vector.glsl"
+#include "shaders/math/functions.glsl"
+#include "shaders/post/denoiser.glsl"
+
+ivec2 tileSize;
+ivec2 own; // pixel of the tile
+
+// Whether the invocation has a pixel.
+bool beginPass() {
+    tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight);
+    int index = int(gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
+    own = ivec2(index % tileSize.x, index / tileSize.x);
+    return own.y < tileSize.y;
+}
+
+// Of the tile's pixel, or of the nearest one where it is outside.
+int placeOf(ivec2 pixel) {
+    ivec2 inside = clamp(pixel, ivec2(0), tileSize - 1);
+    return inside.y * tileSize.x + inside.x;
+}
+
+vec3 noisyVector(int place, int row) {
+    return uintBitsToFloat(imageLoad(noisyTexels, place * noisyRows + row).xyz);
+}
+float noisyNumber(int place, int row) { return uintBitsToFloat(imageLoad(noisyTexels, place * noisyRows + row).w); }
+
+#define loadVector(texels, place) uintBitsToFloat(imageLoad(texels, place).xyz)
+#define loadNumber(texels, place) uintBitsToFloat(imageLoad(texels, place).w)
+#define storeVector(texels, place, v) imageStore(texels, place, uvec4(floatBitsToUint(v), 0u))
+
+void storeEstimate(int place, vec3 colour, float error) {
+    imageStore(estimateTexels, place, uvec4(floatBitsToUint(colour), floatBitsToUint(error)));
+}
