@@ -119,11 +119,12 @@ class TileDenoiser {
             sum += luminance;
             largest = leaves::withLargest(largest, luminance);
         });
-        const float factor = leaves::fireflyFactor(leaves::luminance(pixel.colour),
-                                                   leaves::luminance(pixel.variance), sum, largest);
         const float secondShare = 1.0f - pixel.firstShare;
         const vec3 second =
             (pixel.colour - pixel.firstShare * pixel.first) * leaves::divide(1.0f, secondShare);
+        const float apart = leaves::luminance(pixel.first - second);
+        const float factor = leaves::fireflyFactor(leaves::luminance(pixel.colour),
+                                                   apart * apart * (pixel.firstShare * secondShare), sum, largest);
         Split &result = split_[at(x, y)];
         result.first = pixel.first * factor;
         result.second = second * factor;
@@ -224,11 +225,13 @@ class TileDenoiser {
         choices_[at(x, y)] = static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin());
     }
 
-    /// The estimates by the shares of the neighbourhood that has chosen them.
+    /// The estimates by the shares of the neighbourhood that has chosen them; pixels without noise stay as they are.
     [[nodiscard]] vec3 blended(int x, int y) const {
         std::array<float, estimateKinds> counts{};
         around(x, y, choiceRadius, [&](std::size_t other, int, int) { counts[choices_[other]] += 1.0f; });
         const std::array<vec3, estimateKinds> &estimates = estimates_[at(x, y)];
+        if (leaves::isCertain(estimates[2], split_[at(x, y)].variance))
+            return estimates[2];
         vec3 sum(0.0f);
         for (std::size_t i = 0; i < estimateKinds; ++i)
             sum += estimates[i] * counts[i];

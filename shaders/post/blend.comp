@@ -1,4 +1,5 @@
-// Last pass of the denoiser: the estimates of a pixel, by the shares of the neighbourhood that has chosen them.
+// Last pass of the denoiser: the estimates of a pixel, by the shares of the neighbourhood that has chosen them;
+// pixels without noise stay as they are.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"
@@ -19,5 +20,8 @@ void main() {
     vec3 sum = vec3(0.0);
     [[unroll]] for (int i = 0; i < estimateCount; ++i)
         sum += loadVector(estimateTexels, place * estimateCount + i) * counts[i];
-    storeVector(denoisedTexels, place, greater(sum * (1.0 / 25.0), vec3(0.0)));
+    vec3 noisy = loadVector(estimateTexels, place * estimateCount + 2);
+    vec3 blended = greater(sum * (1.0 / 25.0), vec3(0.0));
+    bool isNoisy = !isCertain(noisy, loadVector(splitTexels, place * splitRows + 2));
+    storeVector(denoisedTexels, place, isNoisy ? blended : noisy);
 }

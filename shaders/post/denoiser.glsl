@@ -83,3 +83,9 @@ float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance) {
     return withoutTiny(squared.x * roughInverse(scale.x) + squared.y * roughInverse(scale.y) +
                        squared.z * roughInverse(scale.z));
 }
+
+// Whether a pixel has no noise: its mean has a standard deviation below a thousandth of it.
+bool isCertain(vec3 colour, vec3 variance) {
+    vec3 allowed = colour * colour * 1e-6;
+    return variance.x < allowed.x && variance.y < allowed.y && variance.z < allowed.z;
+}

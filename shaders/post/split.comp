@@ -19,11 +19,13 @@ void main() {
         }
     vec3 colour = noisyVector(place, 0);
     vec3 variance = noisyVector(place, 2);
-    float factor = fireflyFactor(luminance(colour), luminance(variance), sum, largest);
     float firstShare = noisyNumber(place, 0);
     float secondShare = 1.0 - firstShare;
     vec3 first = noisyVector(place, 1);
     vec3 second = (colour - firstShare * first) * divide(1.0, secondShare);
+    float apart = luminance(first - second);
+    float factor =
+        fireflyFactor(luminance(colour), apart * apart * (firstShare * secondShare), sum, largest);
     first = first * factor;
     second = second * factor;
     vec3 difference = first - second;
