@@ -9,7 +9,7 @@ namespace hyalite::core {
 
 namespace {
 
-constexpr float largestColour = 1e9f;   // its square, summed over a picture, is far from the range of floats
+constexpr float largestColour = 1e9f;    // its square, summed over a picture, is far from the range of floats
 constexpr float smallestColour = 1e-12f; // no product of it with weights and features is subnormal
 constexpr float largestDepth = 1e10f;
 
@@ -47,9 +47,11 @@ float scaleOf(const NoisyPicture &picture) {
 
 layout::NoisyPixel scaled(const layout::NoisyPixel &pixel, float scale) {
     layout::NoisyPixel result = pixel;
-    result.colour = inRange(pixel.colour * scale, 0.0f, largestColour);
-    result.first = inRange(pixel.first * scale, 0.0f, largestColour);
-    result.variance = inRange(pixel.variance * (scale * scale), 0.0f, largestColour * largestColour);
+    if (!isPlain(pixel.colour, scale)) // it stays as it is, and its neighbours see black
+        result.colour = result.first = result.variance = glm::vec3(0.0f);
+    result.colour = inRange(result.colour * scale, 0.0f, largestColour);
+    result.first = inRange(result.first * scale, 0.0f, largestColour);
+    result.variance = inRange(result.variance * (scale * scale), 0.0f, largestColour * largestColour);
     result.firstShare = std::clamp(inRange(pixel.firstShare, 0.0f, 1.0f), 0.001f, 0.999f);
     result.albedo = inRange(pixel.albedo, -1000.0f, 1000.0f);
     result.normal = inRange(pixel.normal, -1000.0f, 1000.0f);
@@ -66,7 +68,8 @@ Image denoisedByTiles(const NoisyPicture &picture, int side,
     Image image(picture.width, picture.height);
     for (int top = 0; top < picture.height; top += side)
         for (int left = 0; left < picture.width; left += side) {
-            const Crop own{left, std::min(left + side, picture.width), top, std::min(top + side, picture.height)};
+            const Crop own{left, std::min(left + side, picture.width), top,
+                           std::min(top + side, picture.height)};
             const Crop around{std::max(own.x0 - margin, 0), std::min(own.x1 + margin, picture.width),
                               std::max(own.y0 - margin, 0), std::min(own.y1 + margin, picture.height)};
             const auto indexOf = [&](int x, int y) {
@@ -80,8 +83,9 @@ Image denoisedByTiles(const NoisyPicture &picture, int side,
             const std::vector<glm::vec3> colours = denoiseTile(tile);
             for (int y = own.y0; y < own.y1; ++y)
                 for (int x = own.x0; x < own.x1; ++x) {
-                    const auto at = static_cast<std::size_t>(y - around.y0) * static_cast<std::size_t>(tile.width) +
-                                    static_cast<std::size_t>(x - around.x0);
+                    const auto at =
+                        static_cast<std::size_t>(y - around.y0) * static_cast<std::size_t>(tile.width) +
+                        static_cast<std::size_t>(x - around.x0);
                     const glm::vec3 &noisy = picture.pixels[indexOf(x, y)].colour;
                     image.at(x, y) = isPlain(noisy, scale) ? colours[at] / scale : noisy;
                 }

@@ -26,7 +26,7 @@ constexpr int margin = static_cast<int>(layout::denoiserMargin);
 constexpr std::array<std::size_t, denoiserBindingCount> rows{
     layout::noisyRows, layout::splitRows, 1, layout::guideRows, layout::estimateCount, 1, 1};
 constexpr std::array<const char *, denoiserBindingCount> names{
-    "the noisy tile",      "the halves of the tile",  "the variances of the tile", "the guides of the tile",
+    "the noisy tile",       "the halves of the tile", "the variances of the tile", "the guides of the tile",
     "the tile's estimates", "the tile's choices",     "the denoised tile"};
 constexpr std::array<const char *, 6> passes{"denoiserSplit",      "denoiserVariance", "denoiserGuides",
                                              "denoiserRegression", "denoiserChoice",   "denoiserBlend"};
@@ -81,7 +81,9 @@ class TileDenoiser {
 
 Image denoise(Device &device, bool isDivisionExact, const NoisyPicture &picture) {
     const int side = tileSideFor(device.info());
-    const auto most = [side](int size) { return static_cast<std::size_t>(std::min(size, side + 2 * margin)); };
+    const auto most = [side](int size) {
+        return static_cast<std::size_t>(std::min(size, side + 2 * margin));
+    };
     TileDenoiser tiles(device, isDivisionExact, most(picture.width) * most(picture.height));
     return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
 }

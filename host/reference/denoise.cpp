@@ -13,14 +13,14 @@ namespace hyalite::core::reference {
 namespace {
 
 using glm::vec3;
-using namespace layout;
+using layout::NoisyPixel;
 
-constexpr std::size_t features = featureCount;
-constexpr std::size_t estimateKinds = estimateCount;
+constexpr std::size_t features = layout::featureCount;
+constexpr std::size_t estimateKinds = layout::estimateCount;
 
 /// The sums of a regression over the neighbours of a pixel.
 struct Moments {
-    std::array<float, productCount> products{};
+    std::array<float, layout::productCount> products{};
     std::array<vec3, features> sums{};
 
     void add(float weight, const std::array<float, features> &values, const vec3 &colour) {
@@ -112,7 +112,7 @@ class TileDenoiser {
         const NoisyPixel &pixel = noisy_[at(x, y)];
         float sum = 0.0f;
         vec3 largest(0.0f);
-        around(x, y, fireflyRadius, [&](std::size_t other, int dx, int dy) {
+        around(x, y, layout::fireflyRadius, [&](std::size_t other, int dx, int dy) {
             if (dx == 0 && dy == 0)
                 return;
             const float luminance = leaves::luminance(noisy_[other].colour);
@@ -123,8 +123,8 @@ class TileDenoiser {
         const vec3 second =
             (pixel.colour - pixel.firstShare * pixel.first) * leaves::divide(1.0f, secondShare);
         const float apart = leaves::luminance(pixel.first - second);
-        const float factor = leaves::fireflyFactor(leaves::luminance(pixel.colour),
-                                                   apart * apart * (pixel.firstShare * secondShare), sum, largest);
+        const float factor = leaves::fireflyFactor(
+            leaves::luminance(pixel.colour), apart * apart * (pixel.firstShare * secondShare), sum, largest);
         Split &result = split_[at(x, y)];
         result.first = pixel.first * factor;
         result.second = second * factor;
@@ -136,11 +136,12 @@ class TileDenoiser {
     void smoothVariance(int x, int y) {
         vec3 squares(0.0f);
         vec3 variance(0.0f);
-        around(x, y, varianceRadius, [&](std::size_t other, int, int) {
+        around(x, y, layout::varianceRadius, [&](std::size_t other, int, int) {
             squares += split_[other].squares;
             variance += split_[other].variance;
         });
-        const vec3 ratio(leaves::varianceRatio(squares.x, variance.x), leaves::varianceRatio(squares.y, variance.y),
+        const vec3 ratio(leaves::varianceRatio(squares.x, variance.x),
+                         leaves::varianceRatio(squares.y, variance.y),
                          leaves::varianceRatio(squares.z, variance.z));
         variance_[at(x, y)] = split_[at(x, y)].variance * ratio + 1e-10f;
     }
@@ -148,7 +149,7 @@ class TileDenoiser {
     /// Means over 3 x 3 pixels, and the variance of the mean of all samples there.
     void makeGuides(int x, int y) {
         Split guide{};
-        around(x, y, guideRadius, [&](std::size_t other, int, int) {
+        around(x, y, layout::guideRadius, [&](std::size_t other, int, int) {
             guide.first += split_[other].first;
             guide.second += split_[other].second;
             guide.variance += variance_[other];
@@ -167,8 +168,8 @@ class TileDenoiser {
         const float secondFactor = leaves::divide(1.0f, 1.0f - pixel.firstShare);
         std::array<Moments, 2> firsts;  // of the first half, by weights of the second
         std::array<Moments, 2> seconds; // narrow, wide
-        for (int dy = -regressionRadius; dy <= regressionRadius; ++dy)
-            for (int dx = -regressionRadius; dx <= regressionRadius; ++dx) {
+        for (int dy = -layout::regressionRadius; dy <= layout::regressionRadius; ++dy)
+            for (int dx = -layout::regressionRadius; dx <= layout::regressionRadius; ++dx) {
                 if (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_)
                     continue;
                 const std::size_t other = at(x + dx, y + dy);
@@ -176,9 +177,10 @@ class TileDenoiser {
                 const auto distance = [&](vec3 Split::*half, float factor) {
                     return leaves::jointDistance(
                         leaves::colourDistance(guides_[other].*half, guides_[own].*half,
-                                               guides_[other].variance * factor, guides_[own].variance * factor),
-                        leaves::colourDistance(split_[other].*half, split_[own].*half, variance_[other] * factor,
-                                               variance_[own] * factor));
+                                               guides_[other].variance * factor,
+                                               guides_[own].variance * factor),
+                        leaves::colourDistance(split_[other].*half, split_[own].*half,
+                                               variance_[other] * factor, variance_[own] * factor));
                 };
                 const float byFirst = leaves::wideWeight(distance(&Split::first, firstFactor));
                 const float bySecond = leaves::wideWeight(distance(&Split::second, secondFactor));
@@ -199,8 +201,8 @@ class TileDenoiser {
         }
         // Of the noisy colour itself, whose error and variance are one: the first term is minus that.
         estimates_[own][2] = halves.first * pixel.firstShare + halves.second * (1.0f - pixel.firstShare);
-        errors_[own][2] =
-            leaves::relativeError(estimates_[own][2], estimates_[own][2], halves.second, halves.squares * 0.5f);
+        errors_[own][2] = leaves::relativeError(estimates_[own][2], estimates_[own][2], halves.second,
+                                                halves.squares * 0.5f);
     }
 
     static std::array<float, features> featuresOf(const NoisyPixel &neighbour, const NoisyPixel &own) {
@@ -217,8 +219,9 @@ class TileDenoiser {
     /// The estimate with the least error in the neighbourhood, which counts less the further it is.
     void choose(int x, int y) {
         std::array<float, estimateKinds> sums{};
-        around(x, y, errorRadius, [&](std::size_t other, int dx, int dy) {
-            const auto weight = static_cast<float>((errorRadius + 1 - std::abs(dx)) * (errorRadius + 1 - std::abs(dy)));
+        around(x, y, layout::errorRadius, [&](std::size_t other, int dx, int dy) {
+            const auto weight = static_cast<float>((layout::errorRadius + 1 - std::abs(dx)) *
+                                                   (layout::errorRadius + 1 - std::abs(dy)));
             for (std::size_t i = 0; i < estimateKinds; ++i)
                 sums[i] += weight * errors_[other][i];
         });
@@ -228,7 +231,8 @@ class TileDenoiser {
     /// The estimates by the shares of the neighbourhood that has chosen them; pixels without noise stay as they are.
     [[nodiscard]] vec3 blended(int x, int y) const {
         std::array<float, estimateKinds> counts{};
-        around(x, y, choiceRadius, [&](std::size_t other, int, int) { counts[choices_[other]] += 1.0f; });
+        around(x, y, layout::choiceRadius,
+               [&](std::size_t other, int, int) { counts[choices_[other]] += 1.0f; });
         const std::array<vec3, estimateKinds> &estimates = estimates_[at(x, y)];
         if (leaves::isCertain(estimates[2], split_[at(x, y)].variance))
             return estimates[2];
@@ -252,8 +256,8 @@ class TileDenoiser {
 
 } // namespace
 
-Image denoise(const NoisyPicture &picture, int threadCount) {
-    return denoisedByTiles(picture, denoiserTileSide, [threadCount](const NoisyPicture &tile) {
+Image denoise(const NoisyPicture &picture, int threadCount, int tileSide) {
+    return denoisedByTiles(picture, tileSide, [threadCount](const NoisyPicture &tile) {
         return TileDenoiser(tile, threadCount).denoised();
     });
 }

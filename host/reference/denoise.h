@@ -11,7 +11,9 @@ namespace hyalite::core::reference {
 /// Of the result: another version gives other colours. Pictures say it.
 inline constexpr std::string_view denoiserName = "hyalite denoiser 1";
 
-/// The picture without most of its noise. The result does not depend on the number of threads; 0: chosen by OpenMP.
-[[nodiscard]] Image denoise(const NoisyPicture &picture, int threadCount = 0);
+/// The picture without most of its noise. The result depends neither on the number of threads, of which OpenMP chooses 0,
+/// nor on the side of tiles.
+[[nodiscard]] Image denoise(const NoisyPicture &picture, int threadCount = 0,
+                            int tileSide = denoiserTileSide);
 
 } // namespace hyalite::core::reference
