@@ -18,18 +18,18 @@ namespace {
 
 using layout::denoiserBindingCount;
 
-constexpr std::uint32_t workgroupSize = 64;
-constexpr std::size_t texelBytes = 16;
-constexpr int margin = static_cast<int>(layout::denoiserMargin);
+constexpr std::uint32_t passGroupSize = 64;
+constexpr std::size_t bytesOfTexel = 16;
+constexpr int tileMargin = static_cast<int>(layout::denoiserMargin);
 
 /// Texels of a pixel in the buffer at each binding.
-constexpr std::array<std::size_t, denoiserBindingCount> rows{
+constexpr std::array<std::size_t, denoiserBindingCount> rowsAt{
     layout::noisyRows, layout::splitRows, 1, layout::guideRows, layout::estimateCount, 1, 1};
-constexpr std::array<const char *, denoiserBindingCount> names{
+constexpr std::array<const char *, denoiserBindingCount> bufferNames{
     "the noisy tile",       "the halves of the tile", "the variances of the tile", "the guides of the tile",
     "the tile's estimates", "the tile's choices",     "the denoised tile"};
-constexpr std::array<const char *, 6> passes{"denoiserSplit",      "denoiserVariance", "denoiserGuides",
-                                             "denoiserRegression", "denoiserChoice",   "denoiserBlend"};
+constexpr std::array<const char *, 6> passNames{"denoiserSplit",      "denoiserVariance", "denoiserGuides",
+                                                "denoiserRegression", "denoiserChoice",   "denoiserBlend"};
 
 /// Side of a tile's own pixels, whose texels the device can address.
 int tileSideFor(const DeviceInfo &device) {
@@ -40,22 +40,23 @@ int tileSideFor(const DeviceInfo &device) {
                                 device.name, device.maxStorageImagesPerStage, denoiserBindingCount),
                     Remedy::ReferenceInstead);
     const auto most = static_cast<int>(std::sqrt(static_cast<double>(device.maxTexelBufferElements) /
-                                                 static_cast<double>(std::ranges::max(rows))));
-    return std::min(denoiserTileSide, most - 2 * margin); // Vulkan guarantees 114 - 2 margins
+                                                 static_cast<double>(std::ranges::max(rowsAt))));
+    return std::min(denoiserTileSide, most - 2 * tileMargin); // Vulkan guarantees 114 - 2 margins
 }
 
 class TileDenoiser {
   public:
     TileDenoiser(Device &device, bool isDivisionExact, std::size_t pixelCount) {
         for (std::size_t i = 0; i < denoiserBindingCount; ++i)
-            buffers_.emplace_back(device, names[i], BufferUse::Texels, pixelCount * rows[i] * texelBytes);
+            buffers_.emplace_back(device, bufferNames[i], BufferUse::Texels,
+                                  pixelCount * rowsAt[i] * bytesOfTexel);
         std::vector<const Buffer *> bound;
         for (const Buffer &buffer : buffers_)
             bound.push_back(&buffer);
         SpecializationConstants constants{};
-        constants[layout::constantWorkgroupSize] = workgroupSize;
+        constants[layout::constantWorkgroupSize] = passGroupSize;
         constants[layout::constantExactDivision] = isDivisionExact;
-        for (const char *pass : passes)
+        for (const char *pass : passNames)
             kernels_.emplace_back(device, pass, embeddedKernel(pass), constants, bound);
     }
 
@@ -66,7 +67,7 @@ class TileDenoiser {
         dispatch.tileHeight = static_cast<std::uint32_t>(tile.height);
         const auto pixelCount = static_cast<std::uint32_t>(tile.pixels.size());
         for (Kernel &kernel : kernels_)
-            kernel.run(dispatch, (pixelCount + workgroupSize - 1) / workgroupSize);
+            kernel.run(dispatch, (pixelCount + passGroupSize - 1) / passGroupSize);
         std::vector<glm::vec4> texels(pixelCount);
         buffers_[layout::bindingDenoised].download(std::as_writable_bytes(std::span(texels)));
         return {texels.begin(), texels.end()};
@@ -82,7 +83,7 @@ class TileDenoiser {
 Image denoise(Device &device, bool isDivisionExact, const NoisyPicture &picture) {
     const int side = tileSideFor(device.info());
     const auto most = [side](int size) {
-        return static_cast<std::size_t>(std::min(size, side + 2 * margin));
+        return static_cast<std::size_t>(std::min(size, side + 2 * tileMargin));
     };
     TileDenoiser tiles(device, isDivisionExact, most(picture.width) * most(picture.height));
     return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
