@@ -55,7 +55,7 @@ std::vector<Attribute> keptAttributes(const ExrPicture &input) {
 }
 
 void writeDenoised(AtomicFile &file, const ExrPicture &input, const Image &noisy, const Image &clean,
-                   const DenoiseOptions &options, const std::string &commandLine) {
+                   const DenoiseOptions &options, const std::string &commandLine, Observer &observer) {
     const ImageFormat format = imageFormatOf(options.output);
     Picture picture(clean);
     if (const ExrChannel *alpha = input.find("A"))
@@ -76,7 +76,6 @@ void writeDenoised(AtomicFile &file, const ExrPicture &input, const Image &noisy
     const std::vector<std::string> losses =
         writeImage(file, format, picture, options.exposureStops.value_or(0.0), ofFile);
     file.commit();
-    TerminalObserver observer(options.isQuiet);
     for (const std::string &loss : losses)
         observer.warning(fmt::format("{}: {}", options.output, loss));
 }
@@ -107,7 +106,7 @@ ExitCode runDenoise(const DenoiseOptions &options, const std::string &commandLin
         const ObservedTask task(observer, "denoise", backend->hasCompiler());
         clean = backend->denoise(noisy);
     }
-    writeDenoised(file, input, colours, *clean, options, commandLine);
+    writeDenoised(file, input, colours, *clean, options, commandLine, observer);
     return ExitCode::Ok;
 }
 

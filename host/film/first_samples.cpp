@@ -12,16 +12,13 @@ void takeFirst(const Film &film, std::uint32_t sampleCount, std::vector<FirstSam
             first[i] = {meanOf(film.pixels[i]), sampleCount};
 }
 
-bool hasFirst(const Film &film, std::span<const Crop> squares) {
-    const FilmRecords records = recordsIn(film, squares);
-    return !records.first.empty() &&
-           std::ranges::equal(records.first, records.pixels,
+bool hasFirst(const Film &film) {
+    return !film.first.empty() &&
+           std::ranges::equal(film.first, film.pixels,
                               [](const FirstSamples &first, const layout::FilmPixel &pixel) {
                                   return first.sampleCount > 0 && first.sampleCount < pixel.sampleCount;
                               });
 }
-
-bool hasFirst(const Film &film) { return hasFirst(film, {&film.crop, 1}); }
 
 std::uint32_t samplesBeyondFirst(const Film &film, std::span<const Crop> squares,
                                  std::uint32_t samplesPerPixel) {

@@ -20,8 +20,7 @@ namespace hyalite::core {
 /// Sets `first`, which has an element for each pixel, to the means of the pixels that have exactly `sampleCount` samples.
 void takeFirst(const Film &film, std::uint32_t sampleCount, std::vector<FirstSamples> &first);
 
-/// Whether all pixels of the squares have first samples, and others beside them.
-[[nodiscard]] bool hasFirst(const Film &film, std::span<const Crop> squares);
+/// Whether all pixels have first samples, and others beside them.
 [[nodiscard]] bool hasFirst(const Film &film);
 
 /// The largest sample count of a pixel in the squares that has too many samples for taking the first ones of a render
