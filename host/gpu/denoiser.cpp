@@ -46,18 +46,20 @@ int tileSideFor(const DeviceInfo &device) {
 
 class TileDenoiser {
   public:
-    TileDenoiser(Device &device, bool isDivisionExact, std::size_t pixelCount) {
+    TileDenoiser(Device &device, PipelineCache &pipelines, bool isDivisionExact, std::size_t pixelCount) {
         for (std::size_t i = 0; i < denoiserBindingCount; ++i)
             buffers_.emplace_back(device, bufferNames[i], BufferUse::Texels,
                                   pixelCount * rowsAt[i] * bytesOfTexel);
         std::vector<const Buffer *> bound;
         for (const Buffer &buffer : buffers_)
             bound.push_back(&buffer);
+        const std::vector<BufferUse> uses(buffers_.size(), BufferUse::Texels);
         SpecializationConstants constants{};
         constants[layout::constantWorkgroupSize] = passGroupSize;
         constants[layout::constantExactDivision] = isDivisionExact;
         for (const char *pass : passNames)
-            kernels_.emplace_back(device, pass, embeddedKernel(pass), constants, bound);
+            kernels_.emplace_back(device, pipelines.get(device, pass, embeddedKernel(pass), constants, uses),
+                                  bound);
     }
 
     [[nodiscard]] std::vector<glm::vec3> denoised(const NoisyPicture &tile) {
@@ -80,12 +82,12 @@ class TileDenoiser {
 
 } // namespace
 
-Image denoise(Device &device, bool isDivisionExact, const NoisyPicture &picture) {
+Image denoise(Device &device, PipelineCache &pipelines, bool isDivisionExact, const NoisyPicture &picture) {
     const int side = tileSideFor(device.info());
     const auto most = [side](int size) {
         return static_cast<std::size_t>(std::min(size, side + 2 * tileMargin));
     };
-    TileDenoiser tiles(device, isDivisionExact, most(picture.width) * most(picture.height));
+    TileDenoiser tiles(device, pipelines, isDivisionExact, most(picture.width) * most(picture.height));
     return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
 }
 

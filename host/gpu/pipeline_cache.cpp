@@ -6,8 +6,9 @@ namespace hyalite::core::gpu {
 
 namespace {
 
-/// A picture with all layers needs a kernel for each, and a helper for some; a pipeline takes megabytes.
-constexpr std::size_t maxKept = 12;
+/// A picture with all layers needs a kernel for each, a helper for some, and the passes of the denoiser; a pipeline takes
+/// megabytes.
+constexpr std::size_t maxKept = 18;
 
 } // namespace
 

@@ -410,7 +410,7 @@ Image Renderer::denoise(const NoisyPicture &picture) {
     const auto attempt = [&] {
         if (!state_->device)
             state_->reopen();
-        return gpu::denoise(*state_->device, state_->arithmetic.isNative, picture);
+        return gpu::denoise(*state_->device, state_->pipelines, state_->arithmetic.isNative, picture);
     };
     try {
         return attempt();
