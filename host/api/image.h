@@ -62,8 +62,8 @@ class HYALITE_API Image {
     /// Opacity, height x width; or empty if the image is opaque. `pixels` are multiplied by it (premultiplied) unless they
     /// are display-encoded.
     [[nodiscard]] std::span<const float> alpha() const noexcept;
-    /// The unbiased estimate of the variance of the means of the samples; NaN below two samples a pixel. Of the same shape, or empty if
-    /// the image was not rendered.
+    /// The unbiased estimate of the variance of the means of the samples; NaN below two samples a pixel. Of the same
+    /// shape, or empty if the image was not rendered.
     [[nodiscard]] std::span<const float> variance() const;
     /// Samples of each pixel, height x width; or empty if the image was not rendered.
     [[nodiscard]] std::span<const std::uint32_t> samples() const;

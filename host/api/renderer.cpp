@@ -130,7 +130,7 @@ Image Renderer::render(const Scene &scene, const Settings &settings, const Rende
         observer.rethrow();
         requireSample(result);
         std::optional<core::Image> clean;
-        if (used.isDenoised && core::keepsDenoisingData(used))
+        if (core::isToBeDenoised(used))
             clean = core::denoised(*content_->backend, result.film, views, observer);
         return imageOf(prepared, content_->identity, std::move(result), std::move(views), std::move(clean));
     });

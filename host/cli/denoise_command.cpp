@@ -1,4 +1,5 @@
 #include "host/cli/commands.h"
+#include "host/cli/device_options.h"
 #include "host/cli/options.h"
 #include "host/cli/terminal_observer.h"
 #include "host/engine/open_backends.h"
@@ -126,11 +127,7 @@ void addDenoiseCommand(CLI::App &app, CommandContext &context) {
     addNumber(*command, "--exposure", options->exposureStops, rangeOf(&RenderSettings::exposureStops),
               "in stops: radiance is multiplied by 2^NUMBER before the tone curve of a PNG");
     addToneOption(*command, options->tone);
-    command->add_option("--device", options->devices, "as for `hyalite render`: the bits are those of cpu")
-        ->type_name("DEVICE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->capture_default_str();
+    addDevicesOption(*command, options->devices, "as for `hyalite render`: the bits are those of cpu");
     command->add_flag("--quiet", options->isQuiet, "print errors only");
     command->callback([options, &context] { context.exitCode = runDenoise(*options, context.commandLine); });
 }

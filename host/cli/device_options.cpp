@@ -11,6 +11,14 @@ constexpr Interval dispatchMillis{1.0, 10'000.0};
 
 } // namespace
 
+CLI::Option *addDevicesOption(CLI::App &command, RendererNames &devices, const std::string &help) {
+    return command.add_option("--device", devices, help)
+        ->type_name("DEVICE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->capture_default_str();
+}
+
 void addThreadsOption(CLI::App &command, int &threadCount) {
     addNumber(command, "--threads", threadCount, limits::threadCount,
               "threads of the reference renderer and of lavapipe; default: all");

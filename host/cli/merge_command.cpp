@@ -1,6 +1,7 @@
 #include "host/base/message.h"
 #include "host/base/quantities.h"
 #include "host/cli/commands.h"
+#include "host/cli/device_options.h"
 #include "host/cli/options.h"
 #include "host/cli/part_command.h"
 #include "host/cli/render_request.h"
@@ -277,11 +278,7 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
         ->type_name("PERCENT");
     addNumber(*command, "--audit-seed", options->auditSeed, {0.0, 4294967295.0},
               "chooses the tiles to audit, instead of a hash of the picture");
-    command->add_option("--device", options->devices, "for --audit and to denoise: as for `hyalite render`")
-        ->type_name("DEVICE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->capture_default_str();
+    addDevicesOption(*command, options->devices, "for --audit and to denoise: as for `hyalite render`");
     addPaths(*command, "--allow-path", options->allowedPaths,
              "for --audit: also read this file, or files in this folder; repeatable");
     addFileOptions(*command, options->file);

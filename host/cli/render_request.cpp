@@ -89,15 +89,11 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
         ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and sample counts; .hdr, "
         ".pfm: linear; -: a PNG to standard output, exr:- another format")
         ->required();
-    command
-        .add_option("--device", request.devices,
-                    "auto: a GPU before software; cpu: the reference renderer; an index or part of a name as "
-                    "`hyalite devices` lists them. May be repeated, for devices that share the picture; all: "
-                    "every device, and cpu unless a software device computes on it")
-        ->type_name("DEVICE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->capture_default_str();
+    addDevicesOption(
+        command, request.devices,
+        "auto: a GPU before software; cpu: the reference renderer; an index or part of a name as "
+        "`hyalite devices` lists them. May be repeated, for devices that share the picture; all: every "
+        "device, and cpu unless a software device computes on it");
     addFileOptions(command, request.file);
     addLayersOption(command, request.scene.views);
     addThreadsOption(command, request.threadCount);

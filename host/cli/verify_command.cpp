@@ -2,6 +2,7 @@
 #include "host/base/json_text.h"
 #include "host/base/message.h"
 #include "host/cli/commands.h"
+#include "host/cli/device_options.h"
 #include "host/cli/options.h"
 #include "host/cli/terminal_observer.h"
 #include "host/engine/tuning.h"
@@ -208,14 +209,10 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
         "The scenes reach every kernel, material, light and camera; a device renders them with every "
         "kernel that it can run. The hashes are the same for all devices and machines. The exit "
         "code is 0 only if all films of all devices have the shipped bits, and 1 if not.");
-    command
-        ->add_option(
-            "--device", options->devices,
-            "what to verify: all devices and the CPU renderer; cpu; or a device, by index or part of its "
-            "name. May be repeated")
-        ->type_name("DEVICE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+    addDevicesOption(
+        *command, options->devices,
+        "what to verify: all devices and the CPU renderer; cpu; or a device, by index or part of its name. "
+        "May be repeated")
         ->default_str("all");
     command->add_option("--scenes", options->scenes, "only these of the shipped scenes")
         ->type_name("NAME,...")

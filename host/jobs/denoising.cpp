@@ -68,6 +68,10 @@ class LayerValues {
 
 } // namespace
 
+bool isToBeDenoised(const RenderSettings &settings) {
+    return settings.isDenoised && keepsDenoisingData(settings);
+}
+
 bool isDenoisable(const Film &film, const std::vector<ViewFilm> &views) {
     return hasFirst(film) && std::ranges::all_of(denoiserViews, [&](Integrator view) {
                const Film *of = denoiserView(views, view);
@@ -151,7 +155,7 @@ std::uint64_t denoisingBytes(const RenderSettings &settings, const Crop &crop, u
     if (!keepsDenoisingData(settings))
         return 0;
     return pixelCountOf(crop) * sizeof(FirstSamples) * copies +
-           (settings.isDenoised ? denoiserBytes(crop) : 0);
+           (isToBeDenoised(settings) ? denoiserBytes(crop) : 0);
 }
 
 } // namespace hyalite::core

@@ -13,6 +13,9 @@
 
 namespace hyalite::core {
 
+/// Whether a picture with these settings is to be denoised.
+[[nodiscard]] bool isToBeDenoised(const RenderSettings &settings);
+
 /// Whether the film and its views have all data that the denoiser needs, of every pixel: a render that ended early may
 /// have it of some.
 [[nodiscard]] bool isDenoisable(const Film &film, const std::vector<ViewFilm> &views);

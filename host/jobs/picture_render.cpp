@@ -69,7 +69,7 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
                              static_cast<int>(options.exr.compression));
     if (request.hasMotion)
         whole += "motion vectors\n";
-    if (settings.isDenoised && keepsDenoisingData(settings))
+    if (isToBeDenoised(settings))
         whole += fmt::format("denoised: {}\n", reference::denoiserName);
     return hashText(hashBytes(std::as_bytes(std::span(whole))));
 }
@@ -255,8 +255,7 @@ class PictureRender {
 
     /// If the picture is to be denoised, and can be. A failure leaves it noisy.
     std::optional<Image> denoisedColours(const Film &film, FinishedPicture &finished) {
-        const RenderSettings &settings = session_.scene().loaded.settings;
-        if (!settings.isDenoised || !keepsDenoisingData(settings))
+        if (!isToBeDenoised(session_.scene().loaded.settings))
             return std::nullopt;
         const Clock::time_point start = Clock::now();
         std::optional<Image> clean;

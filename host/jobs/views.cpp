@@ -76,7 +76,7 @@ std::vector<Attribute> attributesOfSheet(const ViewSeries &series, const RenderS
 /// Of a sheet, which has no layers.
 std::vector<PictureView> viewsToDenoise(const PreparedScene &scene) {
     std::vector<PictureView> views;
-    if (scene.loaded.settings.isDenoised)
+    if (isToBeDenoised(scene.loaded.settings))
         std::ranges::copy_if(viewsOf(scene), std::back_inserter(views), &PictureView::isOfDenoiser);
     return views;
 }
