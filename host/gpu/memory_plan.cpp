@@ -36,9 +36,9 @@ BufferPlan plan(std::string name, BufferUse use, std::uint64_t sizeBytes) {
 
 BufferUse bulkUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
 
-std::uint32_t fitTile(int pixels, int tile) {
-    const int blockSide = Tile::blockSide;
-    return static_cast<std::uint32_t>(std::min((pixels + blockSide - 1) / blockSide * blockSide, tile));
+std::uint32_t fitTile(std::uint32_t pixels, int tile) {
+    const std::uint32_t side = Tile::blockSide;
+    return std::min((pixels + side - 1) / side * side, static_cast<std::uint32_t>(tile));
 }
 
 /// Samples in flight: the maximum that leaves few slots idle in the last round.
@@ -143,9 +143,9 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
 
 JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &device) {
     const bool isSkipList = config.traversal == Traversal::SkipList;
-    const std::uint64_t filmPixels =
-        static_cast<std::uint64_t>(job.crop.width()) * static_cast<std::uint64_t>(job.crop.height());
     JobPlan planned;
+    planned.layout = FilmLayout(job.crop, job.film, job.sampleEnd);
+    const std::uint64_t filmPixels = planned.layout.pixelCount();
     planned.exchangesByBroadcast = isSkipList && device.hasSlowShuffles.value_or(false);
     planned.samplesInFlight = fitSamplesInFlight(config.samplesInFlight, job.sampleEnd - job.sampleBegin);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
@@ -157,14 +157,16 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     // take less, and whitted's paths end together. To keep layers of light of samples that wait costs more than that.
     planned.regeneratesPaths = planned.isDirect && rowOf(job.settings.integrator).aimsAtEmitters &&
                                !job.scene.needsTree(job.settings.integrator) && lightPlanes == 0;
-    planned.film = plan("the film", BufferUse::Storage, filmPixels * sizeof(layout::FilmPixel));
+    planned.film = plan(
+        "the film", BufferUse::Storage,
+        filmPixels * (sizeof(layout::FilmPixel) + (planned.layout.isGathered() ? sizeof(std::uint32_t) : 0)));
     planned.light = plan("the layers of light", BufferUse::Storage,
                          filmPixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float));
     planned.progress = plan("the counters", BufferUse::Counters, sizeof(layout::DispatchProgress));
     planned.trace =
         plan("the trace", BufferUse::Storage, job.isTraced ? traceCapacity * sizeof(layout::TraceEvent) : 0);
-    planned.largestTile = {0, 0, fitTile(job.crop.width(), config.tileWidth),
-                           fitTile(job.crop.height(), config.tileHeight)};
+    planned.largestTile = {0, 0, fitTile(planned.layout.width(), config.tileWidth),
+                           fitTile(planned.layout.height(), config.tileHeight)};
     const std::uint64_t recordsPerSample = alphaKindOf(job.settings) == layout::alphaOfNothing ? 1 : 2;
     const auto planSlots = [&] {
         const std::uint64_t slots = planned.largestTile.pixelCount() * planned.samplesInFlight;

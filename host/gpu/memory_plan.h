@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/buffer_plan.h"
+#include "host/gpu/film_layout.h"
 #include "host/gpu/job.h"
 #include "host/gpu/render_config.h"
 #include "host/gpu/tile.h"
@@ -38,7 +39,8 @@ struct JobPlan {
     bool regeneratesPaths = false; ///< the direct kernel's slots do not wait for the others of their pixel
     Tile largestTile;
     std::uint64_t maxHelperPixels = 0; ///< maximum size of a tile for the helper
-    BufferPlan film;
+    FilmLayout layout;
+    BufferPlan film;  ///< gathered, with the positions of its pixels
     BufferPlan light; ///< the film's layers of light
     BufferPlan progress;
     BufferPlan stacks; ///< of the traversal, or the finished samples of slots that take them in turn

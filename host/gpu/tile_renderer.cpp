@@ -135,28 +135,19 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
     : device_(device), pipelines_(pipelines), buffers_(buffers), config_(config), job_(job),
       scenePlan_(scenePlan), plan_(plan), film_(device, plan.film), light_(device, plan.light),
       progress_(device, plan.progress), stacks_(device, plan.stacks), trace_(device, plan.trace),
-      unfinished_(job.film, static_cast<std::uint32_t>(job.crop.width()),
-                  static_cast<std::uint32_t>(job.crop.height()), job.sampleEnd),
       sizer_(config.dispatchSeconds, plan.samplesInFlight, plan.largestTile.pixelCount(), known) {
-    if (job.film.empty()) {
-        film_.clear();
-        if (lightPlanesOf(job.scene, job.settings).count() > 0)
-            light_.clear();
-    } else {
-        film_.upload(std::as_bytes(job.film));
-        light_.upload(std::as_bytes(job.light));
-    }
+    uploadFilm();
     for (const layout::FilmPixel &pixel : job.film)
         samplesInFilm_ += std::min(pixel.sampleCount, job.sampleEnd); // some may have more
-    const auto fewest = std::min_element(job.film.begin(), job.film.end(), [](const auto &a, const auto &b) {
-        return a.sampleCount < b.sampleCount;
-    });
-    if (fewest != job.film.end())
-        fewestInFilm_ = fewest->sampleCount;
+    std::uint32_t fewest = job.film.empty() ? 0 : job.sampleEnd;
+    for (const layout::FilmPixel &pixel : job.film)
+        fewest = std::min(fewest, pixel.sampleCount);
+    fewestInFilm_ = fewest;
     dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
     dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
-    dispatch_.filmWidth = static_cast<std::uint32_t>(job.crop.width());
-    dispatch_.filmHeight = static_cast<std::uint32_t>(job.crop.height());
+    dispatch_.filmWidth = plan.layout.width();
+    dispatch_.filmHeight = plan.layout.height();
+    dispatch_.isGathered = plan.layout.isGathered() ? 1 : 0;
     dispatch_.sampleBegin = job.sampleBegin;
     dispatch_.stepBudget = config.steps;
     dispatch_.traceCapacity = job.isTraced ? traceCapacity : 0;
@@ -257,9 +248,9 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
         std::vector<WorkItem> waiting = cutFilm(begin);
         while (!waiting.empty() && !run.totals.isStopped) {
             WorkItem &item = waiting.back();
-            if (item.begin == end || unfinished_.in(item.tile).unfinished == 0) {
+            if (item.begin == end) {
                 waiting.pop_back();
-            } else if (mustHalve(item, end) || isMostlyFinished(item.tile)) {
+            } else if (mustHalve(item, end)) {
                 WorkItem half = item;
                 std::tie(half.tile, item.tile) = item.tile.halves();
                 waiting.push_back(half);
@@ -336,11 +327,6 @@ std::vector<TileRenderer::WorkItem> TileRenderer::cutFilm(std::uint32_t begin) c
     return items;
 }
 
-bool TileRenderer::isMostlyFinished(const Tile &tile) const {
-    const UnfinishedBlocks::Count blocks = unfinished_.in(tile);
-    return device_.info().isSoftware() && tile.canBeHalved() && 2 * blocks.unfinished <= blocks.all;
-}
-
 bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {
     const std::uint64_t most = sizer_.pixels(end - item.begin);
     return item.tile.canBeHalved() &&
@@ -348,8 +334,41 @@ bool TileRenderer::mustHalve(const WorkItem &item, std::uint32_t end) const {
 }
 
 void TileRenderer::readFilm(std::span<layout::FilmPixel> pixels, std::span<float> light) const {
-    film_.download(std::as_writable_bytes(pixels));
-    light_.download(std::as_writable_bytes(light));
+    if (!plan_.layout.isGathered()) {
+        film_.download(std::as_writable_bytes(pixels));
+        light_.download(std::as_writable_bytes(light));
+        return;
+    }
+    std::vector<layout::FilmPixel> gathered(plan_.layout.pixelCount());
+    film_.download(std::as_writable_bytes(std::span(gathered)));
+    plan_.layout.scatter(std::span<const layout::FilmPixel>(gathered), 1, pixels);
+    const std::size_t lightSize = light.size() / pixels.size();
+    std::vector<float> gatheredLight(gathered.size() * lightSize);
+    light_.download(std::as_writable_bytes(std::span(gatheredLight)));
+    plan_.layout.scatter(std::span<const float>(gatheredLight), lightSize, light);
+}
+
+void TileRenderer::uploadFilm() {
+    const FilmLayout &ofDevice = plan_.layout;
+    const std::uint32_t planes = lightPlanesOf(job_.scene, job_.settings).count();
+    if (job_.film.empty()) {
+        film_.clear();
+        if (planes > 0)
+            light_.clear();
+    } else if (ofDevice.isGathered()) {
+        std::vector<layout::FilmPixel> pixels(ofDevice.pixelCount());
+        ofDevice.gather(job_.film, 1, std::span(pixels));
+        film_.upload(std::as_bytes(std::span(pixels)));
+        const std::size_t size = std::size_t{planes} * layout::lightWordsPerPlane;
+        std::vector<float> light(pixels.size() * size);
+        ofDevice.gather(job_.light, size, std::span(light));
+        light_.upload(std::as_bytes(std::span(light)));
+        const std::vector<std::uint32_t> positions = ofDevice.positions();
+        film_.upload(std::as_bytes(std::span(positions)), std::span(pixels).size_bytes());
+    } else {
+        film_.upload(std::as_bytes(job_.film));
+        light_.upload(std::as_bytes(job_.light));
+    }
 }
 
 std::vector<layout::TraceEvent> TileRenderer::readTrace() const {
@@ -390,10 +409,17 @@ TileRenderer::Step TileRenderer::runOnce(Program &program) {
 DispatchRecord TileRenderer::describe(const Program &program, const Step &step, bool isResumed) const {
     DispatchRecord record;
     record.kernel = program.kernel.name();
-    record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
-    record.tileY = job_.crop.y0 + static_cast<int>(dispatch_.tileY);
-    record.tileWidth = std::min(static_cast<int>(dispatch_.tileWidth), job_.crop.x1 - record.tileX);
-    record.tileHeight = std::min(static_cast<int>(dispatch_.tileHeight), job_.crop.y1 - record.tileY);
+    if (plan_.layout.isGathered()) { // from anywhere in the film
+        record.tileX = job_.crop.x0;
+        record.tileY = job_.crop.y0;
+        record.tileWidth = job_.crop.width();
+        record.tileHeight = job_.crop.height();
+    } else {
+        record.tileX = job_.crop.x0 + static_cast<int>(dispatch_.tileX);
+        record.tileY = job_.crop.y0 + static_cast<int>(dispatch_.tileY);
+        record.tileWidth = std::min(static_cast<int>(dispatch_.tileWidth), job_.crop.x1 - record.tileX);
+        record.tileHeight = std::min(static_cast<int>(dispatch_.tileHeight), job_.crop.y1 - record.tileY);
+    }
     record.sampleBegin = dispatch_.sampleBegin;
     record.sampleEnd = dispatch_.sampleEnd;
     record.isResumed = isResumed;

@@ -13,7 +13,6 @@
 #include "host/gpu/render_config.h"
 #include "host/gpu/scene_buffers.h"
 #include "host/gpu/tile.h"
-#include "host/gpu/unfinished_blocks.h"
 
 #include <functional>
 #include <optional>
@@ -62,6 +61,7 @@ class TileRenderer {
                                  const std::function<bool()> &shouldStop = {},
                                  const std::function<void(const RayCounts &)> &onPause = {});
 
+    /// Pixels that were finished before stay as they are.
     void readFilm(std::span<layout::FilmPixel> pixels, std::span<float> light) const;
 
     [[nodiscard]] std::vector<layout::TraceEvent> readTrace() const;
@@ -113,11 +113,10 @@ class TileRenderer {
 
     [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
+    /// The film, and the positions of its pixels.
+    void uploadFilm();
     /// The film in tiles of the largest size, the first one last.
     [[nodiscard]] std::vector<WorkItem> cutFilm(std::uint32_t begin) const;
-    /// Whether most of a tile is finished, and its halves are better looked at by themselves: slots of finished pixels
-    /// take a software device's time.
-    [[nodiscard]] bool isMostlyFinished(const Tile &tile) const;
     /// Whether an item with samples up to `end` is too large for one dispatch.
     [[nodiscard]] bool mustHalve(const WorkItem &item, std::uint32_t end) const;
     void moveTo(const Tile &tile);
@@ -149,7 +148,6 @@ class TileRenderer {
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run
     std::uint32_t fewestInFilm_ = 0;  ///< minimum over pixels, before run
-    UnfinishedBlocks unfinished_;     ///< before run
     DispatchSizer sizer_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end

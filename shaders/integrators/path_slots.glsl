@@ -11,7 +11,9 @@ PathRecord path[RAYS];
 uint slotIndex[RAYS]; // among the slots of the tile
 uvec2 imagePixel[RAYS]; // of the whole image
 uint filmIndex[RAYS];
-bool isSlotUsed[RAYS]; // a tile may reach beyond the film
+bool isSlotUsed[RAYS]; // a tile may reach beyond the film, and a film have places without a pixel
+
+const uint filmPixelWords = 16u;
 
 uint stepsTaken = 0u;         // loop iterations of this dispatch
 uint stepsForfeited = 0u;     // of these, steps that were skipped because the work budget of the dispatch was spent
@@ -55,10 +57,23 @@ uvec2 pixelOfSlot(uint index) {
 void placeSlotAt(uint slot, uint index) {
     slotIndex[slot] = index;
     uvec2 filmPixel = uvec2(dispatch.tileX, dispatch.tileY) + pixelOfSlot(index);
-    imagePixel[slot] = filmPixel + uvec2(dispatch.cropX, dispatch.cropY);
     filmIndex[slot] = filmPixel.y * dispatch.filmWidth + filmPixel.x;
-    isSlotUsed[slot] = index < slotCount() && filmPixel.x < dispatch.filmWidth &&
-                       filmPixel.y < dispatch.filmHeight;
+    uvec2 whole = filmPixel + uvec2(dispatch.cropX, dispatch.cropY);
+    uint position = packPosition(whole.x, whole.y);
+    bool isInFilm = index < slotCount() && filmPixel.x < dispatch.filmWidth && filmPixel.y < dispatch.filmHeight;
+    bool isGathered = isInFilm && dispatch.isGathered != 0u;
+    uint word = isGathered ? dispatch.filmWidth * dispatch.filmHeight * filmPixelWords + filmIndex[slot] : 0u;
+    // Once for each sample: lavapipe passes over a loop that no lane enters, where it would pay for both arms of an `if`.
+    // In other kernels, that load once, a loop makes it keep paths in memory, and they take three times as long.
+    if (regeneratesPaths)
+        while (isGathered) {
+            position = filmWords[word];
+            isGathered = false;
+        }
+    else
+        position = isGathered ? filmWords[word] : position;
+    imagePixel[slot] = uvec2(position & 0xFFFFu, position >> 16u);
+    isSlotUsed[slot] = isInFilm && position != noPosition;
 }
 
 // The block of slots on which the workgroup works (DispatchConstants::interleave).

@@ -14,7 +14,7 @@ const bool hasBounces = true;
 #include "shaders/integrators/path_slots.glsl"
 #include "shaders/integrators/alpha.glsl"
 
-layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { FilmPixel filmPixels[]; };
+layout(set = 0, binding = bindingFilm, std430) buffer FilmPixelBuffer { FilmPixel filmPixels[]; };
 layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRecord samples[]; };
 
 void main() {

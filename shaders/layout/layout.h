@@ -584,9 +584,9 @@ struct FrameRecord {
 // loop iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent
 // makes only one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
 struct DispatchConstants {
-    uint cropX; // pixel of the whole image where the film begins
+    uint cropX; // pixel of the whole image where the film begins, unless it is gathered
     uint cropY;
-    uint filmWidth; // pixels
+    uint filmWidth; // pixels, as the device has them (host/gpu/film_layout.h)
     uint filmHeight;
     uint tileX; // pixel of the film where the tile begins
     uint tileY;
@@ -602,7 +602,16 @@ struct DispatchConstants {
     uint traceCapacity;  // events in the trace buffer
     uint workBudget;     // of DispatchProgress::workDone
     uint samplesPerSlot; // the mean number that a slot takes one after another
+    uint isGathered;     // 1: the film's pixels are from anywhere in the image
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
+
+// The buffer of a gathered film has its pixels, and then a word for each of them: its position in the whole image.
+const uint noPosition = 0xFFFFFFFFu; // there is no pixel
+
+HYALITE_INLINE uint packPosition(uint x, uint y) { return x | y << 16u; }
 
 // ---- Results
 
@@ -847,7 +856,7 @@ static_assert(sizeof(EmitterRecord) == 64 && offsetof(EmitterRecord, sidesAndGro
 static_assert(sizeof(LightNode) == 48 && offsetof(LightNode, reference) == 44);
 static_assert(sizeof(LightRecord) == 48 && offsetof(LightRecord, intensity) == 16);
 static_assert(sizeof(FrameRecord) == 208 && offsetof(FrameRecord, boundsUpper) == 96);
-static_assert(sizeof(DispatchConstants) == 64, "push constants: at most 128 bytes everywhere");
+static_assert(sizeof(DispatchConstants) == 80, "push constants: at most 128 bytes everywhere");
 static_assert(sizeof(SampleRecord) == 16);
 static_assert(countMask >= maxPathDepth && sampleIsFinished >= 1u << 4u * bitsPerCount);
 static_assert(sizeof(FilmPixel) == 64 && offsetof(FilmPixel, sumOfSquares) == 32);

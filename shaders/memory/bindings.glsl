@@ -3,6 +3,7 @@
 
 layout(set = 0, binding = bindingFrame, std140) uniform FrameBuffer { FrameRecord frameConstants; };
 layout(set = 0, binding = bindingProgress, std430) coherent buffer ProgressBuffer { DispatchProgress progress; };
+layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 layout(set = 0, binding = bindingPaths, std430) buffer PathBuffer { PathRecord pathRecords[]; };
 layout(set = 0, binding = bindingStacks, std430) buffer StackBuffer { uint stackEntries[]; };
 layout(set = 0, binding = bindingTrace, std430) writeonly buffer TraceBuffer { TraceEvent traceEvents[]; };

@@ -9,10 +9,8 @@
 //
 // The sums of layers of light are shared likewise: number 3 p + c is that of channel c of plane p.
 
-layout(set = 0, binding = bindingFilm, std430) buffer FilmBuffer { uint filmWords[]; };
 layout(set = 0, binding = bindingLight, std430) buffer LightBuffer { float lightWords[]; };
 
-const uint filmPixelWords = 16u;
 const uint filmSampleCountWord = 3u;
 const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;

@@ -108,18 +108,18 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
 Buffer::Buffer(Device &device, const BufferPlan &plan)
     : Buffer(device, plan.name, plan.use, static_cast<std::size_t>(plan.sizeBytes)) {}
 
-void Buffer::upload(std::span<const std::byte> bytes) {
-    assert(bytes.size() <= sizeBytes_);
+void Buffer::upload(std::span<const std::byte> bytes, std::size_t offset) {
+    assert(offset + bytes.size() <= sizeBytes_);
     if (bytes.empty())
         return;
     if (mapped_ != nullptr) {
-        std::memcpy(mapped_, bytes.data(), bytes.size());
+        std::memcpy(mapped_ + offset, bytes.data(), bytes.size());
         return;
     }
     Buffer staging(*device_, "the upload of " + name_, BufferUse::Staging, bytes.size());
     staging.upload(bytes);
     device_->submit("the upload of " + name_, [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, bytes.size()};
+        const VkBufferCopy region{0, offset, bytes.size()};
         vkCmdCopyBuffer(commands, staging.get(), get(), 1, &region);
         VkMemoryBarrier barrier{};
         barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;

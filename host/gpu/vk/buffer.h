@@ -25,8 +25,8 @@ class Buffer {
     [[nodiscard]] BufferUse use() const { return use_; }
     [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
 
-    /// Copies to the beginning of the buffer. All work on the device is finished, and so is the copy on return.
-    void upload(std::span<const std::byte> bytes);
+    /// Copies to the buffer, from `offset` on. All work on the device is finished, and so is the copy on return.
+    void upload(std::span<const std::byte> bytes, std::size_t offset = 0);
     /// Copies from the beginning of the buffer. All work on the device is finished.
     void download(std::span<std::byte> bytes) const;
     /// Sets all bytes to 0, by the device.
