@@ -49,8 +49,9 @@ void addLayers(Image::Content &content) {
         const core::Layer noisy = core::noisyLayer(content.noisy);
         addLayer(noisy, noisy.name, noisy.channels, content);
     }
-    for (const core::Layer &layer : core::firstSampleLayers(content.film))
-        addLayer(layer, layer.name, layer.channels, content);
+    if (core::haveDenoiserViews(content.views))
+        for (const core::Layer &layer : core::firstSampleLayers(content.film))
+            addLayer(layer, layer.name, layer.channels, content);
     for (const core::ViewFilm &view : content.views) {
         const core::IntegratorRow &row = core::rowOf(view.view);
         for (const core::Layer &layer : core::layersOf(view))
@@ -160,13 +161,15 @@ Image imageOf(const core::PreparedScene &scene, const core::RendererIdentity &re
     content->rays = result.rays;
     content->seconds = result.timing.renderSeconds;
     const std::array<core::Crop, 1> whole{scene.crop};
-    const int spp = content->settings.samplesPerPixel;
-    content->isFinished = core::finishedWork(content->film, whole, spp).isComplete;
+    const core::FinishedWork finished = core::finishedWork(content->film, whole, content->settings);
+    content->isFinished = finished.isComplete;
     for (const core::ViewFilm &view : content->views)
         content->isFinished =
             content->isFinished &&
             core::finishedWork(view.film, whole, core::samplesOfView(view, content->settings)).isComplete;
     content->provenance = core::provenanceToJson(core::provenanceOf(scene, "(by a program)"), renderer);
+    if (finished.noise)
+        content->provenance["noise"] = core::noiseToJson(*finished.noise, content->settings.noise);
     if (isDenoised(*content))
         content->provenance[core::denoisedAttribute] = core::reference::denoiserName;
     addLayers(*content);

@@ -40,6 +40,8 @@ std::string roundedText(std::uint64_t count, std::string_view plural) {
     return fmt::format("{:.{}f} {}{}", value, decimals, prefixes[power], plural);
 }
 
+std::string percentText(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
+
 std::string sizeText(std::uint64_t bytes) {
     constexpr std::array<std::string_view, 5> units{"bytes", "KiB", "MiB", "GiB", "TiB"};
     const auto [value, power] = scale(bytes, 1024.0, units.size() - 1);

@@ -13,6 +13,9 @@ namespace hyalite::core {
 /// In three digits: "192 rays", "12.3 k rays", "2.14 M rays".
 [[nodiscard]] std::string roundedText(std::uint64_t count, std::string_view plural);
 
+/// In three digits: "2 %", "0.125 %".
+[[nodiscard]] std::string percentText(double share);
+
 /// "512 bytes", "1.5 MiB", "44.0 GiB".
 [[nodiscard]] std::string sizeText(std::uint64_t bytes);
 

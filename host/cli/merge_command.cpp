@@ -16,11 +16,13 @@
 #include "host/jobs/denoising.h"
 #include "host/jobs/film_picture.h"
 #include "host/reference/denoise.h"
+#include "host/report/render_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -147,6 +149,7 @@ bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &ob
                         backend->description(), bits.reason));
     request.scene.settings.push_back({[&](RenderSettings &settings) {
         settings.samplesPerPixel = static_cast<int>(merger.samplesPerPixel());
+        settings.noise = merger.noise();
     }});
     const PreparedScene scene = prepareScene(request.scene, Source::Dropped, observer);
     requireFilmMemory(scene.crop, 3);
@@ -173,11 +176,22 @@ bool passesAudit(const Merger &merger, const MergeOptions &options, Observer &ob
     return result.findings.empty();
 }
 
+/// Of the parts that are there.
+PictureNoise noiseOf(const Merger &merger) {
+    std::vector<Crop> squares;
+    for (std::uint32_t part = 1; part <= merger.partition().partCount(); ++part)
+        if (merger.has(part))
+            std::ranges::copy(merger.partition().squaresOf(part), std::back_inserter(squares));
+    return noiseOf(merger.film(), blocksInFilm(merger.film().crop, squares), merger.noiseTarget());
+}
+
 /// The provenance of the first part, and who made how many.
 nlohmann::ordered_json provenanceOf(const Merger &merger, const std::string &commandLine) {
     nlohmann::ordered_json provenance = nlohmann::ordered_json::parse(merger.origin().provenance);
     provenance["commandLine"] = commandLine;
     provenance["parts"] = {{"count", merger.partition().partCount()}, {"merged", merger.partCount()}};
+    if (const double wanted = merger.noise(); wanted > 0.0)
+        provenance["noise"] = noiseToJson(noiseOf(merger), wanted);
     nlohmann::ordered_json &makers = provenance["parts"]["makers"]; // a list: their names are no keys
     makers = nlohmann::ordered_json::array();
     for (const auto &[maker, count] : merger.makers())
@@ -206,6 +220,20 @@ void writePicture(AtomicFile &file, ImageFormat format, const Merger &merger,
     file.commit();
     for (const std::string &loss : losses)
         observer.warning(fmt::format("{}: {}", options.output, loss));
+}
+
+/// Of the pixels that are there.
+std::string samplesText(const Merger &merger) {
+    if (merger.noise() == 0.0)
+        return fmt::format("{}", merger.samplesPerPixel());
+    std::uint32_t fewest = merger.samplesPerPixel();
+    std::uint32_t most = 0;
+    for (const layout::FilmPixel &pixel : merger.film().pixels)
+        if (pixel.sampleCount > 0) {
+            fewest = std::min(fewest, pixel.sampleCount);
+            most = std::max(most, pixel.sampleCount);
+        }
+    return fmt::format("{} to {}", fewest, most);
 }
 
 ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
@@ -241,7 +269,7 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
                  observer);
     if (!options.isQuiet)
         printResult("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
-                    merger.film().crop.width(), merger.film().crop.height(), merger.samplesPerPixel(),
+                    merger.film().crop.width(), merger.film().crop.height(), samplesText(merger),
                     merger.partCount(), merger.partition().partCount(),
                     merger.makers().size() == 1 ? merger.makers().begin()->first
                                                 : fmt::format("{} makers", merger.makers().size()),

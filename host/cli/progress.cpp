@@ -87,12 +87,17 @@ void ProgressLine::update(double share) {
     const std::optional<double> left = timeLeft_.update(elapsed, share);
     if (isTerminal_) {
         const int filled = static_cast<int>(share * barWidth);
-        redrawLine(fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left", task_, "", filled, "",
-                               barWidth - filled, share * 100.0, left ? durationText(*left) : "?"));
+        redrawLine(fmt::format(
+            "{} [{:#<{}}{:.<{}}] {:3.0f} %  {} left{}", task_, "", filled, "", barWidth - filled,
+            share * 100.0, left ? durationText(*left) : "?",
+            noise_ ? fmt::format(", noise {} of {}", percentText(noise_->first), percentText(noise_->second))
+                   : ""));
         isDrawn_ = true;
     } else {
-        printMessage("task={} progress={:.3f} elapsed_s={:.1f} left_s={}\n", task_, share, elapsed,
-                     left ? fmt::format("{:.1f}", *left) : "?");
+        printMessage("task={} progress={:.3f} elapsed_s={:.1f} left_s={}{}\n", task_, share, elapsed,
+                     left ? fmt::format("{:.1f}", *left) : "?",
+                     noise_ ? fmt::format(" noise={:.4f} wanted_noise={:.4f}", noise_->first, noise_->second)
+                            : "");
     }
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace hyalite::core {
 
@@ -45,6 +46,8 @@ class ProgressLine {
     void expectCompiler();
     /// `share` of the work is finished, in [0, 1].
     void update(double share);
+    /// The noise that a render has reached, and what it is to be.
+    void setNoise(double reached, double wanted) { noise_ = {reached, wanted}; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -57,6 +60,7 @@ class ProgressLine {
     bool isTerminal_;
     bool isDrawn_ = false;
     bool isUpdated_ = false;
+    std::optional<std::pair<double, double>> noise_; ///< reached and wanted
     TimeLeft timeLeft_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point lastPrint_ = start_;

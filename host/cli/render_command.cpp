@@ -114,11 +114,22 @@ void printResumed(const PictureBeginning &begun, const RenderRequest &request, b
         printMessage("note: {}; starting from the beginning\n", begun.checkpointDamage);
     if (isQuiet || !(request.isResuming || (request.part && report.resumed)))
         return;
-    if (report.resumed)
+    if (report.resumed && isAdaptive(report.origin.settings))
+        printMessage("resuming from {}: pixels have {:.1f} samples in the mean\n", report.resumed->checkpoint,
+                     static_cast<double>(report.resumed->sampleCount) /
+                         static_cast<double>(begun.pixelCount));
+    else if (report.resumed)
         printMessage("resuming from {}: {:.1f} % of the samples are finished\n", report.resumed->checkpoint,
                      percentOf(report.resumed->sampleCount, begun.pixelCount, report));
     else if (!request.checkpoint.empty())
         printMessage("no checkpoint {} yet: starting from the beginning\n", request.checkpoint);
+}
+
+/// The highest noise of a block, and what it is to be.
+std::string noiseText(const RenderReport &report) {
+    const double highest = report.finished.noise->highest;
+    return fmt::format("{} of {}", std::isfinite(highest) ? percentText(highest) : "?",
+                       percentText(report.origin.settings.noise));
 }
 
 /// The finished part of an incomplete image, and its file.
@@ -127,9 +138,23 @@ void printFinished(const RenderReport &report, const RenderRequest &request) {
     std::string where = report.output + " has them";
     if (request.frame)
         where = request.checkpoint.empty() ? "nothing is written" : request.checkpoint + " has them";
-    printMessage("stopped by {}: {} of {} pixels are finished, {:.1f} % of the samples; {}\n",
-                 report.stoppedBy, finished.pixelCount, finished.wantedPixelCount,
-                 percentOf(finished.sampleCount, finished.wantedPixelCount, report), where);
+    const std::string done =
+        finished.noise ? fmt::format("with {:.1f} samples in the mean, and noise {}", finished.meanSamples(),
+                                     noiseText(report))
+                       : fmt::format("{:.1f} % of the samples",
+                                     percentOf(finished.sampleCount, finished.wantedPixelCount, report));
+    printMessage("stopped by {}: {} of {} pixels are finished, {}; {}\n", report.stoppedBy,
+                 finished.pixelCount, finished.wantedPixelCount, done, where);
+}
+
+/// The samples of the pixels.
+std::string samplesText(const RenderReport &report) {
+    const FinishedWork &finished = report.finished;
+    if (!finished.noise)
+        return fmt::format("{}{} spp", finished.isComplete ? "" : "up to ",
+                           report.origin.settings.samplesPerPixel);
+    return fmt::format("{} to {} spp, {:.1f} in the mean, noise {}", finished.fewestSamples,
+                       finished.mostSamples, finished.meanSamples(), noiseText(report));
 }
 
 /// The last line: the speed of this run.
@@ -137,10 +162,9 @@ void printSpeed(const RenderReport &report, const std::optional<Part> &part) {
     const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
         rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
-    printResult("{}: {}{}x{}, {}{} spp, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
+    printResult("{}: {}{}x{}, {}, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
                 part ? fmt::format("part {} of {} of ", part->index, part->count) : "", report.origin.width,
-                report.origin.height, report.finished.isComplete ? "" : "up to ",
-                report.origin.settings.samplesPerPixel, report.resumed ? "resumed, " : "",
+                report.origin.height, samplesText(report), report.resumed ? "resumed, " : "",
                 roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
                 megaraysPerSecond < 1.0 ? 3 : 1, report.totalSeconds);
 }
@@ -165,6 +189,11 @@ void printOutcome(const FinishedPicture &picture, const RenderRequest &request, 
         return;
     printSpeed(report, request.part);
     printShares(report);
+    if (report.finished.noise && report.finished.noise->atLimit > 0)
+        printMessage("note: {} of {} blocks have more noise than {} with --spp {}, which is the most for a "
+                     "pixel\n",
+                     report.finished.noise->atLimit, report.finished.noise->blockCount,
+                     percentText(report.origin.settings.noise), report.origin.settings.samplesPerPixel);
     if (picture.diagnosis)
         printWarning("{}", *picture.diagnosis);
 }

@@ -23,6 +23,23 @@ CLI::Option *addSetting(CLI::App &command, const std::string &name, const Settin
     return addNumberFor<Number>(command, name, take, number.allowed, helpText(setting));
 }
 
+/// A share in percent, as `2%`.
+double readShare(const std::string &name, const std::string &word, const Interval &percents) {
+    if (!word.ends_with('%'))
+        refuseValue(name, word, "a percentage, as 25%");
+    return readNumber(name, word.substr(0, word.size() - 1), percents) / 100.0;
+}
+
+CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
+                        const ShareSetting &share, SettingChanges &changes) {
+    const auto read = [&, name, member = share.member, allowed = share.allowed](const CLI::results_t &words) {
+        const Interval percents{100.0 * allowed.low, 100.0 * allowed.high};
+        changes.push_back(changeTo(readShare(name, words.front(), percents), member, setting));
+        return true;
+    };
+    return command.add_option(name, CLI::callback_t(read), helpText(setting))->type_name("PERCENT%");
+}
+
 /// --NAME, or --NAME=false for what the scene has.
 CLI::Option *addSetting(CLI::App &command, const std::string &name, const Setting &setting,
                         const FlagSetting &flag, SettingChanges &changes) {
@@ -102,10 +119,7 @@ struct Adder {
     }
     CLI::Option *operator()(const PercentOption &row) const {
         const auto read = [name = name(), &share = row.member(options)](const CLI::results_t &words) {
-            const std::string &word = words.front();
-            if (!word.ends_with('%'))
-                refuseValue(name, word, "a percentage, as 25%");
-            share = readNumber(name, word.substr(0, word.size() - 1), PercentOption::allowed) / 100.0;
+            share = readShare(name, words.front(), PercentOption::allowed);
             return true;
         };
         return command.add_option(name(), CLI::callback_t(read), help());

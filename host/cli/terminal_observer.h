@@ -20,6 +20,7 @@ class TerminalObserver : public Observer {
 
     void begin(const std::string &task, bool mayCompile) override;
     void progress(double share) override { line_->update(share); }
+    void noise(double reached, double wanted) override { line_->setNoise(reached, wanted); }
     void end() override { line_.reset(); }
     void warning(const std::string &text) override;
     void note(const std::string &text) override;

@@ -54,10 +54,11 @@ BackendResult render(Backend &backend, const PackedScene &scene, const RenderSet
     RenderHooks hooks;
     hooks.onProgress = [&](double share) { progress.update(std::max(share - others, 0.0) / (1.0 - others)); };
     hooks.shouldStop = [&] { return observer.wantsStop().has_value() || task.limit.isReached(); };
+    hooks.onNoise = [&](double highest) { progress.noise(highest, settings.noise); };
     hooks.timeline = task.timeline;
     hooks.snapshots = task.snapshots;
     try {
-        const bool hasStages = task.keepsFirst && keepsDenoisingData(settings);
+        const bool hasStages = isAdaptive(settings) || (task.keepsFirst && keepsDenoisingData(settings));
         BackendResult result = hasStages ? renderInStages(backend, scene, settings, std::move(begun), hooks)
                                          : backend.render(scene, settings, std::move(begun), hooks);
         const std::size_t survived = result.faults.size() - (result.failure ? 1 : 0);

@@ -72,7 +72,8 @@ struct RenderTask {
     SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
     /// Of the film's pixels, in [0, 1): they have all samples already, as others render them.
     double shareOfOthers = 0.0;
-    /// Of the settings that keep data for the denoiser: whether the film gets first samples (first_samples.h).
+    /// Of the settings that keep data for the denoiser: whether the film gets first samples (first_samples.h). That of an
+    /// adaptive render has them in any case.
     bool keepsFirst = false;
 };
 

@@ -1,6 +1,7 @@
 #include "host/engine/identity.h"
 
 #include "host/base/hash.h"
+#include "host/film/noise.h"
 #include "host/packing/light_planes.h"
 #include "host/scene/names.h"
 #include "host/scene/settings_table.h"
@@ -40,6 +41,9 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
             identity.emplace_back("names", hashText(scene.packed.namesHash()));
     }
     identity.emplace_back("denoising data", keepsDenoisingData(settings) ? "true" : "false");
+    if (isAdaptive(settings))
+        identity.emplace_back("noise", fmt::format("in blocks of {0}x{0} pixels, seen by 2^{1}",
+                                                   noiseBlockSide, stopsOfDarkness(settings)));
     if (settings.hasLightGroups)
         identity.emplace_back("light groups", hashText(lightGroupsHash(scene.packed)));
     identity.emplace_back("scene and camera", hashText(scene.contentHash()));

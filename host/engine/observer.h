@@ -25,6 +25,8 @@ class Observer {
     virtual void begin(const std::string & /*task*/, bool /*mayCompile*/) {}
     /// The share of the task that is finished, in [0, 1]. Called by one thread at a time.
     virtual void progress(double /*share*/) {}
+    /// The noise of the present picture (host/film/noise.h), and what it is to be, while the task goes on.
+    virtual void noise(double /*reached*/, double /*wanted*/) {}
     virtual void end() {}
 
     // These three may be called by any thread.
@@ -60,6 +62,7 @@ class ObservedTask {
     ObservedTask &operator=(const ObservedTask &) = delete;
 
     void update(double share) { observer_.progress(share); }
+    void noise(double reached, double wanted) { observer_.noise(reached, wanted); }
 
   private:
     Observer &observer_;

@@ -66,6 +66,16 @@ void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &
 }
 
 void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
+    const auto isGiven = [&](std::string_view key) {
+        return std::ranges::any_of(options.settings, [&](const SettingChange &change) {
+            return change.option != nullptr && change.option->key == key;
+        });
+    };
+    RenderSettings changed = settings;
+    for (const SettingChange &change : options.settings)
+        change.apply(changed);
+    if (changed.noise > 0.0 && isGiven("noise") && !isGiven("spp"))
+        settings.samplesPerPixel = samplesForNoise; // the scene's own number is for renders without a noise
     for (const SettingChange &change : options.settings)
         change.apply(settings);
 }

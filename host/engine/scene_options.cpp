@@ -12,6 +12,7 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace hyalite::core {
@@ -113,6 +114,16 @@ bool flagOf(std::string_view name, const OptionValue &value) {
     return *flag;
 }
 
+/// The number before the sign, if the value is a percentage.
+std::optional<double> percentOf(const OptionValue &value) {
+    const auto *text = std::get_if<std::string>(&value);
+    if (text == nullptr || !text->ends_with('%'))
+        return std::nullopt;
+    const char *end = text->data() + text->size() - 1;
+    double percent = 0.0;
+    return std::from_chars(text->data(), end, percent).ptr == end ? std::optional(percent) : std::nullopt;
+}
+
 /// Sets one option, by the kind of its row.
 struct Setter {
     SceneOptions &options;
@@ -143,15 +154,10 @@ struct Setter {
         row.member(options) = *text;
     }
     void operator()(const PercentOption &row) const {
-        const auto *text = std::get_if<std::string>(&value);
-        double percent = 0.0;
-        const bool isPercentage =
-            text != nullptr && text->ends_with('%') &&
-            std::from_chars(text->data(), text->data() + text->size() - 1, percent).ptr ==
-                text->data() + text->size() - 1;
-        if (!isPercentage || !PercentOption::allowed.contains(percent))
+        const std::optional<double> percent = percentOf(value);
+        if (!percent || !PercentOption::allowed.contains(*percent))
             refuse(name, value, "a percentage, as 25%");
-        row.member(options) = percent / 100.0;
+        row.member(options) = *percent / 100.0;
     }
     void operator()(const FlagOption &row) const { row.member(options) = flagOf(name, value); }
 };
@@ -163,6 +169,13 @@ struct SettingReader {
 
     template <class Number> SettingChange operator()(const NumberSetting<Number> &row) const {
         return changeTo(numberOf<Number>(setting.option, value, row.allowed), row.member, setting);
+    }
+    /// A percentage, or the share itself.
+    SettingChange operator()(const ShareSetting &row) const {
+        const std::optional<double> percent = percentOf(value);
+        return changeTo(
+            numberOf<double>(setting.option, percent ? OptionValue(*percent / 100.0) : value, row.allowed),
+            row.member, setting);
     }
     SettingChange operator()(const FlagSetting &row) const {
         return changeTo(flagOf(setting.option, value), row.member, setting);

@@ -2,14 +2,17 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/base/quantities.h"
 #include "host/engine/backend.h"
 #include "host/film/first_samples.h"
+#include "host/film/noise.h"
 #include "host/film/tally.h"
 #include "host/scene/names.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace hyalite::core {
@@ -37,18 +40,35 @@ Place placeOf(std::span<const Crop> squares, std::size_t index) {
     return {};
 }
 
-/// Pixels of the part that lack samples of the picture or of a layer.
+NoiseTarget targetOf(double noise, std::uint32_t samplesPerPixel, const PartOrigin &origin) {
+    RenderSettings settings;
+    settings.samplesPerPixel = static_cast<int>(samplesPerPixel);
+    settings.noise = noise;
+    settings.exposureStops = origin.exposureStops;
+    return noiseTargetOf(settings);
+}
+
+/// Pixels of an adaptive part in blocks that lack samples of the picture.
+std::size_t pixelsInUnfinishedBlocks(const CheckpointFile &file, const PartOrigin &origin,
+                                     std::span<const Crop> squares) {
+    const PictureNoise noise =
+        noiseOf(file.film, blocksInRecords(squares), targetOf(file.noise, file.samplesPerPixel, origin));
+    return file.film.pixels.size() - noise.finishedPixels;
+}
+
+/// Pixels of the part that lack samples of the picture, unless it is adaptive, or of a layer.
 std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origin) {
     const auto samplesOfLayer = [&](std::size_t layer) {
-        return static_cast<std::uint32_t>(
-            samplesOfView(origin.layers[layer].view, static_cast<int>(file.samplesPerPixel),
-                          origin.areLayersThrough, origin.layers[layer].isOfDenoiser));
+        return static_cast<std::uint32_t>(samplesOfView(
+            origin.layers[layer].view, samplesForViews(static_cast<int>(file.samplesPerPixel), file.noise),
+            origin.areLayersThrough, origin.layers[layer].isOfDenoiser));
     };
     const std::uint32_t firstCount = firstSampleCount(file.samplesPerPixel);
     std::size_t count = 0;
     for (std::size_t i = 0; i < file.film.pixels.size(); ++i) {
-        bool isFinished = file.film.pixels[i].sampleCount == file.samplesPerPixel &&
-                          (file.film.first.empty() || file.film.first[i].sampleCount == firstCount);
+        bool isFinished =
+            file.noise > 0.0 || (file.film.pixels[i].sampleCount == file.samplesPerPixel &&
+                                 (file.film.first.empty() || file.film.first[i].sampleCount == firstCount));
         for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
             isFinished = isFinished && file.layers[layer].pixels[i].sampleCount == samplesOfLayer(layer);
         count += !isFinished;
@@ -102,7 +122,17 @@ void Merger::add(const std::filesystem::path &path) {
 
 void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
     const std::string path = file.path.string();
-    if (const std::size_t unfinished = unfinishedPixels(file, origin); unfinished > 0) {
+    std::size_t unfinished = unfinishedPixels(file, origin);
+    if (file.noise > 0.0) {
+        std::optional<Partition> own;
+        const Partition &partition =
+            partition_ && isOfSamePartition(file)
+                ? *partition_
+                : own.emplace(file.crop, file.part.count, smallestSquare(file.noise));
+        unfinished = std::max(unfinished,
+                              pixelsInUnfinishedBlocks(file, origin, partition.squaresOf(file.part.index)));
+    }
+    if (unfinished > 0) {
         faults_.unusable.push_back(fmt::format("'{}' is not finished: {} of its {} pixels lack samples", path,
                                                unfinished, file.film.pixels.size()));
         return;
@@ -127,19 +157,31 @@ void Merger::take(const CheckpointFile &file, const PartOrigin &origin) {
     parts_.emplace(file.part.index, taken);
 }
 
+bool Merger::isOfSamePartition(const CheckpointFile &file) const {
+    return file.crop == partition_->crop() && file.part.count == partition_->partCount() &&
+           smallestSquare(file.noise) == partition_->smallestSide();
+}
+
+NoiseTarget Merger::noiseTarget() const {
+    return targetOf(subject_->noise, subject_->samplesPerPixel, origin_);
+}
+
 void Merger::begin(const CheckpointFile &file, const PartOrigin &origin) {
-    const std::uint64_t firstBytes = file.film.first.size() * file.part.count * sizeof(FirstSamples);
+    const std::uint64_t firstBytes = file.part.count * (file.film.first.size() * sizeof(FirstSamples) +
+                                                        file.film.wanted.size() * sizeof(std::uint32_t));
     requireFilmMemory(file.crop, 2 + static_cast<unsigned>(file.layers.size()), 2 * file.lightPlaneCount,
                       2 * firstBytes);
-    subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}};
+    subject_ = CheckpointSubject{file.crop, file.part, file.samplesPerPixel, {}, file.noise};
     firstPath_ = file.path.string();
     identity_ = file.identity;
     origin_ = origin;
-    partition_.emplace(file.crop, file.part.count);
+    partition_.emplace(file.crop, file.part.count, smallestSquare(file.noise));
     film_.emplace(file.crop);
     film_->keepLight(origin.lightPlanes);
     if (!file.film.first.empty())
         film_->first.resize(film_->pixels.size());
+    if (!file.film.wanted.empty())
+        film_->wanted.resize(film_->pixels.size());
     for (const PartLayer &layer : origin.layers)
         layers_.push_back({layer.view, Film(file.crop), layer.names, layer.isOfDenoiser});
 }
@@ -151,11 +193,13 @@ std::string Merger::foreignness(const CheckpointFile &file) const {
         return fmt::format("parts: {} there, {} here", subject_->part.count, file.part.count);
     if (file.samplesPerPixel != subject_->samplesPerPixel)
         return fmt::format("spp: {} there, {} here", subject_->samplesPerPixel, file.samplesPerPixel);
+    if (file.noise != subject_->noise)
+        return fmt::format("noise: {} there, {} here", percentText(subject_->noise), percentText(file.noise));
     if (file.lightPlaneCount != film_->lightPlanes.size())
         return fmt::format("layers of light: {} there, {} here", film_->lightPlanes.size(),
                            file.lightPlaneCount);
-    if (file.film.first.empty() != film_->first.empty())
-        return "one of them has no first samples";
+    if (file.film.first.empty() != film_->first.empty() || file.film.wanted.empty() != film_->wanted.empty())
+        return "one of them has no first samples or wanted counts";
     if (file.layers.size() != layers_.size())
         return fmt::format("layers: {} there, {} here", layers_.size(), file.layers.size());
     return file.crop == subject_->crop ? "" : "it has another crop";

@@ -3,6 +3,7 @@
 
 #include "host/farm/part_origin.h"
 #include "host/film/checkpoint.h"
+#include "host/film/noise.h"
 #include "host/film/view_film.h"
 
 #include <cstdint>
@@ -39,7 +40,9 @@ class Merger {
     [[nodiscard]] const PartOrigin &origin() const { return origin_; } ///< of the first part
     [[nodiscard]] const Partition &partition() const { return *partition_; }
     [[nodiscard]] std::uint32_t samplesPerPixel() const { return subject_->samplesPerPixel; }
-    [[nodiscard]] const Film &film() const { return *film_; } ///< black where parts are missing
+    [[nodiscard]] double noise() const { return subject_->noise; } ///< that is wanted; 0: none
+    [[nodiscard]] NoiseTarget noiseTarget() const;                 ///< of a picture with such a noise
+    [[nodiscard]] const Film &film() const { return *film_; }      ///< black where parts are missing
     [[nodiscard]] const std::vector<ViewFilm> &layers() const { return layers_; }
     [[nodiscard]] const RayCounts &rays() const { return rays_; }
     [[nodiscard]] std::size_t partCount() const { return parts_.size(); } ///< that are there
@@ -56,6 +59,7 @@ class Merger {
     };
 
     void take(const CheckpointFile &file, const PartOrigin &origin);
+    [[nodiscard]] bool isOfSamePartition(const CheckpointFile &file) const;
     void begin(const CheckpointFile &file, const PartOrigin &origin);
     [[nodiscard]] std::string foreignness(const CheckpointFile &file) const;
     void compare(const CheckpointFile &file, const Taken &second);

@@ -5,11 +5,14 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/input_file.h"
+#include "host/film/noise.h"
+#include "host/scene/settings_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -34,9 +37,10 @@ struct Header {
     std::uint32_t originBytes;
     std::uint32_t lightPlanes;
     std::uint32_t keepsFirst;
-    std::uint32_t unused;
+    std::uint32_t keepsWanted;
+    std::uint64_t noise; // its bits
 };
-static_assert(sizeof(Header) == 96 && std::has_unique_object_representations_v<Header>);
+static_assert(sizeof(Header) == 104 && std::has_unique_object_representations_v<Header>);
 
 /// The file is complete, but this render cannot continue from it.
 class OtherRender : public Error {
@@ -82,6 +86,7 @@ class Reader {
         contents.crop = {header.x0, header.x1, header.y0, header.y1};
         contents.part = {header.partIndex, header.partCount};
         contents.samplesPerPixel = header.samplesPerPixel;
+        contents.noise = std::bit_cast<double>(header.noise);
         for (std::size_t i = 0; i < rayKinds.size(); ++i)
             contents.rays.*rayKinds[i].count = header.rays[i];
         contents.identity.resize(header.identityBytes);
@@ -90,6 +95,7 @@ class Reader {
         contents.film.pixels.resize(pixelCount);
         contents.film.light.resize(pixelCount * layout::lightWordsPerPlane * header.lightPlanes);
         contents.film.first.resize(pixelCount * header.keepsFirst);
+        contents.film.wanted.resize(pixelCount * header.keepsWanted);
         contents.layers.resize(header.layerCount);
         for (FilmRecords &layer : contents.layers)
             layer.pixels.resize(pixelCount);
@@ -107,6 +113,8 @@ class Reader {
                 readHashed(std::as_writable_bytes(std::span(records.light)));
             if (!records.first.empty())
                 readHashed(std::as_writable_bytes(std::span(records.first)));
+            if (!records.wanted.empty())
+                readHashed(std::as_writable_bytes(std::span(records.wanted)));
         };
         readRecords(contents.film);
         std::ranges::for_each(contents.layers, readRecords);
@@ -136,30 +144,35 @@ class Reader {
                                             "are allowed",
                                             bytes, maxBytes));
         const Crop crop{header.x0, header.x1, header.y0, header.y1};
+        const auto noise = std::bit_cast<double>(header.noise);
+        if (!rangeOf(&RenderSettings::noise).contains(noise))
+            throw file_.bad(fmt::format("it is damaged: its wanted noise would be {}", noise));
+        const int smallest = smallestSquare(noise);
         if (header.partIndex < 1 || header.partIndex > header.partCount ||
-            header.partCount > Partition::maxParts(crop) || header.layerCount > maxLayers ||
-            header.lightPlanes > maxLayers || header.keepsFirst > 1)
+            header.partCount > Partition::maxParts(crop, smallest) || header.layerCount > maxLayers ||
+            header.lightPlanes > maxLayers || header.keepsFirst > 1 || header.keepsWanted > 1)
             throw file_.bad(
-                fmt::format("it is damaged: it would be part {} of {}, with {} layers, {} of light and {} of "
-                            "first samples",
+                fmt::format("it is damaged: it would be part {} of {}, with {} layers, {} of light, {} of "
+                            "first samples and {} of wanted counts",
                             header.partIndex, header.partCount, header.layerCount, header.lightPlanes,
-                            header.keepsFirst));
+                            header.keepsFirst, header.keepsWanted));
         const std::uint64_t besidePixels =
             magic.size() + sizeof(Header) + header.identityBytes + header.originBytes + sizeof(std::uint64_t);
         const std::uint64_t bytesEach = sizeof(layout::FilmPixel) * (1 + header.layerCount) +
                                         sizeof(float) * layout::lightWordsPerPlane * header.lightPlanes +
-                                        sizeof(FirstSamples) * header.keepsFirst;
+                                        sizeof(FirstSamples) * header.keepsFirst +
+                                        sizeof(std::uint32_t) * header.keepsWanted;
         const std::uint64_t inFile =
             file_.sizeBytes() < besidePixels ? 0 : (file_.sizeBytes() - besidePixels) / bytesEach;
         // Before the squares are counted, which takes memory: parts are alike, except for few squares.
         const bool isPlausible = static_cast<std::uint64_t>(width * height) / 2 / header.partCount <
                                  inFile + 2 * std::uint64_t{Partition::maxSide} * Partition::maxSide;
-        const bool isKnown =
-            known_ != nullptr && known_->crop() == crop && known_->partCount() == header.partCount;
-        const std::uint64_t expected = isKnown ? known_->pixelCountOf(header.partIndex)
-                                       : isPlausible
-                                           ? Partition(crop, header.partCount).pixelCountOf(header.partIndex)
-                                           : 0;
+        const bool isKnown = known_ != nullptr && known_->crop() == crop &&
+                             known_->partCount() == header.partCount && known_->smallestSide() == smallest;
+        const std::uint64_t expected =
+            isKnown       ? known_->pixelCountOf(header.partIndex)
+            : isPlausible ? Partition(crop, header.partCount, smallest).pixelCountOf(header.partIndex)
+                          : 0;
         if (inFile != expected || file_.sizeBytes() != besidePixels + inFile * bytesEach)
             throw file_.bad(
                 fmt::format("it is damaged: part {} of {} of {} x {} pixels has another size than "
@@ -230,7 +243,8 @@ void requireOwnCheckpoint(const std::filesystem::path &path) {
 CheckpointWriter::CheckpointWriter(const std::filesystem::path &path, const RenderIdentity &identity,
                                    CheckpointSubject subject, bool isNewestWhole)
     : path_(followLinks(path)), identity_(identityText(identity)), subject_(std::move(subject)),
-      partition_(subject_.crop, subject_.part.count), isNewestWhole_(isNewestWhole) {
+      partition_(subject_.crop, subject_.part.count, smallestSquare(subject_.noise)),
+      isNewestWhole_(isNewestWhole) {
     for (const auto &[bytes, maxBytes] :
          {std::pair{identity_.size(), maxIdentityBytes}, std::pair{subject_.origin.size(), maxOriginBytes}})
         if (bytes > maxBytes)
@@ -258,7 +272,8 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
                   static_cast<std::uint32_t>(subject_.origin.size()),
                   static_cast<std::uint32_t>(film.lightSize() / layout::lightWordsPerPlane),
                   film.first.empty() ? 0u : 1u,
-                  0u};
+                  film.wanted.empty() ? 0u : 1u,
+                  std::bit_cast<std::uint64_t>(subject_.noise)};
     for (std::size_t i = 0; i < rayKinds.size(); ++i)
         header.rays[i] = rays.*rayKinds[i].count;
     std::string head(magic);
@@ -281,6 +296,8 @@ void CheckpointWriter::write(const Film &film, const RayCounts &rays, std::span<
                 writeHashed(std::as_bytes(std::span(records.light)));
             if (!records.first.empty())
                 writeHashed(std::as_bytes(std::span(records.first)));
+            if (!records.wanted.empty())
+                writeHashed(std::as_bytes(std::span(records.wanted)));
         };
         if (subject_.part.count == 1)
             writeRecords(whole);
@@ -336,12 +353,12 @@ Checkpoint readCheckpoint(const std::filesystem::path &path, const RenderIdentit
     if (maxSamples > subject.samplesPerPixel)
         throw other(
             fmt::format("samples per pixel: up to {} there, {} here", maxSamples, subject.samplesPerPixel));
-    Checkpoint checkpoint{Film(Crop{}), {}, file.rays};
+    Checkpoint checkpoint{Film(Crop{}), {}, file.rays, file.samplesPerPixel, file.noise};
     if (file.part.count == 1) {
         checkpoint.film.crop = file.crop;
         static_cast<FilmRecords &>(checkpoint.film) = std::move(file.film);
     } else {
-        const Partition partition(file.crop, file.part.count);
+        const Partition partition(file.crop, file.part.count, smallestSquare(file.noise));
         const std::span<const Crop> squares = partition.squaresOf(file.part.index);
         checkpoint.film = filmOfSquares(file.crop, squares, subject.samplesPerPixel);
         setRecordsIn(checkpoint.film, squares, file.film);

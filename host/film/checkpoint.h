@@ -10,13 +10,15 @@
 //     u32 index of the part, from 1     u32 number of parts: 1 for a whole render
 //     u32 samples wanted for each pixel     u32 number of layers
 //     u32 bytes of the origin     u32 number of layers of light
-//     u32 1 if first samples are kept, or 0     u32 0
+//     u32 1 if first samples are kept, or 0     u32 1 if wanted counts are, or 0
+//     f64 wanted noise: 0 for the same number of samples in each pixel
 //     the identity, a line "name: value" for each of its parts
 //     the origin: what the writer says of itself
 //     the part's pixels, as layout::FilmPixel: its squares in their order (partition.h), each row by row. One word of a
 //     pixel is 0, and is kept for what later samples or filters want to know of it; more than that is a layer
 //     the layers of light of these pixels (film.h)
 //     their first samples, as FirstSamples (film.h), if they are kept
+//     their wanted counts, u32 each (film.h), if they are kept
 //     the pixels of each layer
 //     u64 hash of all that
 #pragma once
@@ -37,7 +39,7 @@
 namespace hyalite::core {
 
 /// Of checkpoints and parts. Files of another version are refused by name.
-inline constexpr std::uint32_t checkpointVersion = 8;
+inline constexpr std::uint32_t checkpointVersion = 9;
 
 /// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
 /// values have no line ends, and names have no colons.
@@ -51,6 +53,7 @@ struct CheckpointFile {
     Crop crop;
     Part part;
     std::uint32_t samplesPerPixel = 0; ///< that are wanted
+    double noise = 0.0;                ///< likewise (noise.h); 0: none
     RayCounts rays;                    ///< traced for the pixels
     std::uint32_t lightPlaneCount = 0;
     FilmRecords film; ///< of the part
@@ -61,6 +64,8 @@ struct Checkpoint {
     Film film;                ///< pixels outside of the part have the samples that are wanted, and no colour
     std::vector<Film> layers; ///< of a part, likewise
     RayCounts rays;           ///< traced for the film; a device may have started samples that are not in it
+    std::uint32_t samplesPerPixel = 0; ///< that were wanted
+    double noise = 0.0;                ///< likewise
 };
 
 /// The part of a render, beside its identity, that all generations of its checkpoint have in common.
@@ -69,6 +74,7 @@ struct CheckpointSubject {
     Part part;
     std::uint32_t samplesPerPixel = 1;
     std::string origin;
+    double noise = 0.0; ///< wanted, as samplesPerPixel; 0: none
 };
 
 /// The older generation of a checkpoint: FILE.1.

@@ -81,19 +81,19 @@ std::vector<Layer> filmLayers(const Film &film) {
     };
     layers.push_back(std::move(samples));
     std::ranges::move(lightLayers(film), std::back_inserter(layers));
-    std::ranges::move(firstSampleLayers(film), std::back_inserter(layers));
     return layers;
 }
 
 bool haveEqualBits(const FilmRecords &a, const FilmRecords &b, std::size_t pixel) {
     const std::size_t size = a.lightSize();
-    if (size != b.lightSize() || a.first.empty() != b.first.empty())
+    if (size != b.lightSize() || a.first.empty() != b.first.empty() || a.wanted.empty() != b.wanted.empty())
         return false;
     // NOLINTBEGIN(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a.pixels[pixel], &b.pixels[pixel], sizeof a.pixels[pixel]) == 0 &&
            (size == 0 ||
             std::memcmp(&a.light[pixel * size], &b.light[pixel * size], size * sizeof(float)) == 0) &&
-           (a.first.empty() || std::memcmp(&a.first[pixel], &b.first[pixel], sizeof a.first[pixel]) == 0);
+           (a.first.empty() || std::memcmp(&a.first[pixel], &b.first[pixel], sizeof a.first[pixel]) == 0) &&
+           (a.wanted.empty() || a.wanted[pixel] == b.wanted[pixel]);
     // NOLINTEND(bugprone-suspicious-memory-comparison)
 }
 

@@ -72,6 +72,8 @@ struct FilmRecords {
     std::vector<float> light{};
     /// For the denoiser, of each pixel (first_samples.h). Empty unless they are kept.
     std::vector<FirstSamples> first{};
+    /// Of an adaptive render (noise.h), the samples that each pixel is to have; 0 before the first round. Else empty.
+    std::vector<std::uint32_t> wanted{};
 
     /// For each pixel.
     [[nodiscard]] std::size_t lightSize() const { return pixels.empty() ? 0 : light.size() / pixels.size(); }
@@ -116,12 +118,11 @@ struct Film : FilmRecords {
 [[nodiscard]] std::vector<Layer> firstSampleLayers(const Film &film);
 
 /// The film as layers: "variance" RGB, that of the mean (varianceOfMean()), unless no pixel has one; "samples", the
-/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part; and its layers of light and of first
-/// samples.
+/// sample count, as "samples.Y": Blender and Nuke find no layer in a name of one part; and its layers of light.
 /// `film` must outlive them.
 [[nodiscard]] std::vector<Layer> filmLayers(const Film &film);
 
-/// Whether the pixels of this index are equal in every bit, their layers of light and first samples included.
+/// Whether the pixels of this index are equal in every bit, with all else that the films have of them.
 [[nodiscard]] bool haveEqualBits(const FilmRecords &a, const FilmRecords &b, std::size_t pixel);
 
 /// The first pixel that differs in any bit, or the number of pixels.

@@ -6,12 +6,6 @@
 
 namespace hyalite::core {
 
-void takeFirst(const Film &film, std::uint32_t sampleCount, std::vector<FirstSamples> &first) {
-    for (std::size_t i = 0; i < film.pixels.size(); ++i)
-        if (film.pixels[i].sampleCount == sampleCount)
-            first[i] = {meanOf(film.pixels[i]), sampleCount};
-}
-
 bool hasFirst(const Film &film) {
     return !film.first.empty() &&
            std::ranges::equal(film.first, film.pixels,

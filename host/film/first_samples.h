@@ -17,9 +17,6 @@ namespace hyalite::core {
     return std::bit_floor(samplesPerPixel - 1);
 }
 
-/// Sets `first`, which has an element for each pixel, to the means of the pixels that have exactly `sampleCount` samples.
-void takeFirst(const Film &film, std::uint32_t sampleCount, std::vector<FirstSamples> &first);
-
 /// Whether all pixels have first samples, and others beside them.
 [[nodiscard]] bool hasFirst(const Film &film);
 

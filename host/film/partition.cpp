@@ -27,11 +27,11 @@ struct Squares {
 };
 
 /// The only part of a picture is all of it, in one piece.
-Squares divide(const Crop &crop, std::uint32_t partCount) {
+Squares divide(const Crop &crop, std::uint32_t partCount, int smallestSide) {
     if (partCount == 1)
         return {crop, std::max(crop.width(), crop.height())};
     int side = Partition::maxSide;
-    while (side > Partition::minSide && Squares(crop, side).count() < squaresWanted * partCount)
+    while (side > smallestSide && Squares(crop, side).count() < squaresWanted * partCount)
         side /= 2;
     return {crop, side};
 }
@@ -66,14 +66,15 @@ class SplitMix {
 
 } // namespace
 
-std::uint32_t Partition::maxParts(const Crop &crop) {
+std::uint32_t Partition::maxParts(const Crop &crop, int smallest) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        Squares(crop, minSide).count(), static_cast<std::uint64_t>(limits::partCount.high)));
+        Squares(crop, smallest).count(), static_cast<std::uint64_t>(limits::partCount.high)));
 }
 
-Partition::Partition(const Crop &crop, std::uint32_t partCount) : crop_(crop) {
-    assert(partCount >= 1 && partCount <= maxParts(crop));
-    const Squares squares = divide(crop, partCount);
+Partition::Partition(const Crop &crop, std::uint32_t partCount, int smallest)
+    : crop_(crop), smallestSide_(smallest) {
+    assert(partCount >= 1 && partCount <= maxParts(crop, smallest));
+    const Squares squares = divide(crop, partCount, smallest);
     // Along Morton's curve squares that follow one another are near. Of each run of `partCount` every part gets one, in
     // an order that changes from run to run, so that no part has all squares of a column.
     std::vector<std::pair<std::uint64_t, Crop>> curve;
@@ -152,6 +153,10 @@ FilmRecords recordsIn(const Film &film, std::span<const Crop> squares) {
             const auto ofRow = std::span(film.first).subspan(first, count);
             records.first.insert(records.first.end(), ofRow.begin(), ofRow.end());
         }
+        if (!film.wanted.empty()) {
+            const auto ofRow = std::span(film.wanted).subspan(first, count);
+            records.wanted.insert(records.wanted.end(), ofRow.begin(), ofRow.end());
+        }
     });
     return records;
 }
@@ -162,6 +167,8 @@ void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &
         film.light.assign(film.pixels.size() * size, 0.0f);
     if (film.first.empty() != records.first.empty())
         film.first.assign(records.first.empty() ? 0 : film.pixels.size(), {});
+    if (film.wanted.empty() != records.wanted.empty())
+        film.wanted.assign(records.wanted.empty() ? 0 : film.pixels.size(), 0);
     std::size_t done = 0;
     visitRows(film, squares, [&](std::size_t first, std::size_t count) {
         std::ranges::copy(std::span(records.pixels).subspan(done, count),
@@ -171,6 +178,9 @@ void setRecordsIn(Film &film, std::span<const Crop> squares, const FilmRecords &
         if (!film.first.empty())
             std::ranges::copy(std::span(records.first).subspan(done, count),
                               std::span(film.first).subspan(first).begin());
+        if (!film.wanted.empty())
+            std::ranges::copy(std::span(records.wanted).subspan(done, count),
+                              std::span(film.wanted).subspan(first).begin());
         done += count;
     });
     assert(done == records.pixels.size());

@@ -30,6 +30,8 @@ struct RenderHooks {
     /// Called often, possibly by several threads at once. Once it returns true, the film has the samples that are
     /// finished.
     std::function<bool()> shouldStop{};
+    /// Of an adaptive render, between its rounds: the highest noise of a block (noise.h). By the caller's own thread.
+    std::function<void(double)> onNoise{};
     Timeline *timeline = nullptr;       ///< records what happened when
     SnapshotTaker *snapshots = nullptr; ///< takes copies of the film
 };

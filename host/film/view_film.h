@@ -28,6 +28,17 @@ inline constexpr std::array denoiserViews{Integrator::Albedo, Integrator::Normal
     return rowOf(view).isOfCentres && !(areLayersThrough && rowOf(view).canLookThrough);
 }
 
+/// Whether the denoiser's views are among them.
+[[nodiscard]] inline bool haveDenoiserViews(const std::vector<ViewFilm> &views) {
+    return std::ranges::any_of(views, &ViewFilm::isOfDenoiser);
+}
+
+/// The samples of an image for its views: of an adaptive one, as many as most pixels need for them.
+[[nodiscard]] constexpr int samplesForViews(int samplesPerPixel, double noise) {
+    constexpr int samplesBesideNoise = 64;
+    return noise > 0.0 ? std::min(samplesPerPixel, samplesBesideNoise) : samplesPerPixel;
+}
+
 /// The samples of a view for each pixel: those of the image, or the pixel's centre. A few are enough for the denoiser.
 [[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel, bool areLayersThrough,
                                           bool isOfDenoiser = false) {

@@ -285,6 +285,8 @@ RenderSettings readSettings(const JsonObject &object, JsonFaults &faults) {
     for (const Setting &setting : settingsTable)
         faults.collect(
             [&] { std::visit([&](const auto &value) { read(setting.key, value); }, setting.value); });
+    if (settings.noise > 0.0 && !object.find("spp"))
+        settings.samplesPerPixel = samplesForNoise;
     return settings;
 }
 

@@ -152,10 +152,9 @@ std::uint64_t denoiserBytes(const Crop &crop) {
 }
 
 std::uint64_t denoisingBytes(const RenderSettings &settings, const Crop &crop, unsigned copies) {
-    if (!keepsDenoisingData(settings))
-        return 0;
-    return pixelCountOf(crop) * sizeof(FirstSamples) * copies +
-           (isToBeDenoised(settings) ? denoiserBytes(crop) : 0);
+    const std::uint64_t bytesEach = (keepsFirst(settings) ? sizeof(FirstSamples) : 0) +
+                                    (isAdaptive(settings) ? sizeof(std::uint32_t) : 0);
+    return pixelCountOf(crop) * bytesEach * copies + (isToBeDenoised(settings) ? denoiserBytes(crop) : 0);
 }
 
 } // namespace hyalite::core

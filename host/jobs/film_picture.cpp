@@ -40,10 +40,13 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     all.wholeHeight = picture.wholeHeight;
     all.crop = picture.film.crop;
     all.layers = filmLayers(picture.film);
+    const bool hasDenoisingData = haveDenoiserViews(picture.views);
+    if (hasDenoisingData)
+        std::ranges::move(firstSampleLayers(picture.film), std::back_inserter(all.layers));
     std::ranges::move(viewLayers(picture.views), std::back_inserter(all.layers));
     // Where the colours are others or rounded, the denoiser needs those of the film.
     const bool isRounded = picture.options.exr.isHalf || isLossy(picture.options.exr.compression);
-    if (picture.clean != nullptr || (!picture.film.first.empty() && isRounded))
+    if (picture.clean != nullptr || (hasDenoisingData && isRounded))
         all.layers.push_back(noisyLayer(noisy));
     if (!picture.motion.empty())
         all.layers.push_back(motionLayer(picture.motion, picture.film.crop.width()));

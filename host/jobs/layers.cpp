@@ -86,7 +86,9 @@ RenderSettings settingsOf(const PictureView &view, const RenderSettings &ofImage
     settings.integrator = view.view;
     settings.areLayersThrough = ofImage.areLayersThrough || view.isOfDenoiser;
     settings.samplesPerPixel =
-        samplesOfView(view.view, ofImage.samplesPerPixel, settings.areLayersThrough, view.isOfDenoiser);
+        samplesOfView(view.view, samplesForViews(ofImage.samplesPerPixel, wantedNoise(ofImage)),
+                      settings.areLayersThrough, view.isOfDenoiser);
+    settings.noise = 0.0;
     if (isOfCentres(view.view, settings.areLayersThrough))
         settings.sampler = SamplerKind::Centre;
     return settings;
@@ -110,7 +112,8 @@ std::vector<PictureView> viewsOf(const PreparedScene &scene) {
 }
 
 int samplesOfView(const PictureView &view, const RenderSettings &ofImage) {
-    return samplesOfView(view.view, ofImage.samplesPerPixel, ofImage.areLayersThrough, view.isOfDenoiser);
+    return samplesOfView(view.view, samplesForViews(ofImage.samplesPerPixel, wantedNoise(ofImage)),
+                         ofImage.areLayersThrough, view.isOfDenoiser);
 }
 
 int samplesOfView(const ViewFilm &view, const RenderSettings &ofImage) {

@@ -4,6 +4,7 @@
 #include "host/engine/identity.h"
 #include "host/farm/part_origin.h"
 #include "host/film/first_samples.h"
+#include "host/film/noise.h"
 #include "host/image/image_file.h"
 #include "host/image/png.h"
 #include "host/jobs/denoising.h"
@@ -46,12 +47,12 @@ ImageFormat formatOf(const RenderRequest &request) {
 
 Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part{}); }
 
-void setSquares(const Part &part, const Crop &crop, PictureBeginning &begun) {
-    if (const std::uint32_t most = Partition::maxParts(crop); part.count > most)
+void setSquares(const Part &part, const Crop &crop, int smallestSide, PictureBeginning &begun) {
+    if (const std::uint32_t most = Partition::maxParts(crop, smallestSide); part.count > most)
         throw OverrideError("part",
                             fmt::format("found {}/{}; a picture of {} x {} pixels has at most {} parts",
                                         part.index, part.count, crop.width(), crop.height(), most));
-    const Partition partition(crop, part.count);
+    const Partition partition(crop, part.count, smallestSide);
     const std::span<const Crop> squares = partition.squaresOf(part.index);
     begun.squares.assign(squares.begin(), squares.end());
     begun.pixelCount = partition.pixelCountOf(part.index);
@@ -67,6 +68,8 @@ std::string identityOfFrame(const RenderRequest &request, const RenderSession &s
     if (options.exr != ExrOptions()) // those of older frames stay what they were
         whole += fmt::format("half: {}\ncompression: {}\n", options.exr.isHalf,
                              static_cast<int>(options.exr.compression));
+    if (isAdaptive(settings))
+        whole += fmt::format("noise: {}\n", settings.noise);
     if (request.hasMotion)
         whole += "motion vectors\n";
     if (isToBeDenoised(settings))
@@ -115,7 +118,7 @@ bool isPartFinished(const PictureFiles &files, const PreparedScene &scene, const
     if (!files.request.part || !begun.report.resumed || !begun.checkpointDamage.empty())
         return false;
     const std::span<const Crop> squares = begun.squares;
-    bool isFinished = finishedWork(*begun.film, squares, settings.samplesPerPixel).isComplete;
+    bool isFinished = finishedWork(*begun.film, squares, settings).isComplete;
     const std::vector<PictureView> views = viewsOf(scene);
     for (std::size_t i = 0; i < begun.layers.size(); ++i)
         isFinished = isFinished &&
@@ -141,7 +144,11 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
     const int samplesPerPixel = scene.loaded.settings.samplesPerPixel;
     const RenderIdentity identity =
         identityOf(scene, session.backend(), request.part ? &scene.views : nullptr);
-    CheckpointSubject subject{scene.crop, partOf(files), static_cast<std::uint32_t>(samplesPerPixel), {}};
+    CheckpointSubject subject{scene.crop,
+                              partOf(files),
+                              static_cast<std::uint32_t>(samplesPerPixel),
+                              {},
+                              wantedNoise(scene.loaded.settings)};
     if (request.part)
         subject.origin = toText(originOfPart(request, begun.report, scene));
     std::optional<ResumedCheckpoint> resumed = readBegun(request, identity, subject, begun.checkpointDamage);
@@ -162,9 +169,11 @@ void resume(const PictureFiles &files, const RenderSession &session, PictureBegi
         finishedWork(resumed->checkpoint.film, begun.squares, samplesPerPixel).sampleCount, begun.rays};
     begun.film = std::move(resumed->checkpoint.film);
     begun.layers = std::move(resumed->checkpoint.layers);
-    if (keepsDenoisingData(scene.loaded.settings))
+    if (keepsDenoisingData(scene.loaded.settings) && !isAdaptive(scene.loaded.settings))
         requireFirst(begun, samplesPerPixel);
-    begun.isFinished = isPartFinished(files, scene, begun);
+    const bool isOfSameWish = resumed->checkpoint.samplesPerPixel == subject.samplesPerPixel &&
+                              resumed->checkpoint.noise == subject.noise;
+    begun.isFinished = isOfSameWish && isPartFinished(files, scene, begun); // else its file is to say so
 }
 
 /// The render itself, with what its periodic files need.
@@ -213,7 +222,7 @@ class PictureRender {
                 report_.numbers.emplace_back(nameOf(layer.view), layer.names);
         const std::optional<Stop> stop = session_.observer().wantsStop();
         const RenderSettings &settings = session_.scene().loaded.settings;
-        report_.finished = finishedWork(result.film, squares_, settings.samplesPerPixel);
+        report_.finished = finishedWork(result.film, squares_, settings);
         for (const ViewFilm &layer : layers_)
             report_.finished.isComplete =
                 report_.finished.isComplete &&
@@ -276,7 +285,10 @@ class PictureRender {
         FilmPicture picture{.film = film, .views = layers_, .clean = clean};
         picture.wholeWidth = loaded.scene.camera.width;
         picture.wholeHeight = loaded.scene.camera.height;
-        picture.attributes = attributesOf(provenanceToJson(report_.origin, report_.device));
+        nlohmann::ordered_json origin = provenanceToJson(report_.origin, report_.device);
+        if (report_.finished.noise)
+            origin["noise"] = noiseToJson(*report_.finished.noise, loaded.settings.noise);
+        picture.attributes = attributesOf(origin);
         if (clean != nullptr)
             picture.attributes.emplace_back(denoisedAttribute, reference::denoiserName);
         if (!request_.view.empty())
@@ -392,7 +404,7 @@ void requireRoom(const PictureFiles &files, const PreparedScene &scene) {
 PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLine, RenderSession &session) {
     const PreparedScene &scene = session.scene();
     PictureBeginning begun;
-    setSquares(partOf(files), scene.crop, begun);
+    setSquares(partOf(files), scene.crop, smallestSquare(wantedNoise(scene.loaded.settings)), begun);
     RenderReport &report = begun.report;
     report.output = files.request.output;
     report.origin = provenanceOf(scene, commandLine);

@@ -180,7 +180,7 @@ FinishedSheet renderSheet(const ViewSeries &series, const RenderRequest &request
             if (!views.empty())
                 clean = denoised(session.backend(), film, views, session.observer());
         }
-        const bool isComplete = finishedWork(film, {&scene.crop, 1}, settings.samplesPerPixel).isComplete;
+        const bool isComplete = finishedWork(film, {&scene.crop, 1}, settings).isComplete;
         finished.viewCount += isComplete ? 1 : 0;
         tiles.push_back(
             {isComplete ? view.name : view.name + " (unfinished)",

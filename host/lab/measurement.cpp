@@ -1,5 +1,6 @@
 #include "host/lab/measurement.h"
 
+#include "host/base/quantities.h"
 #include "host/image/metrics.h"
 #include "host/report/figure_text.h"
 #include "host/report/render_report.h"
@@ -200,6 +201,11 @@ MeasurementSubject prepareMeasurement(const MeasurementRequest &request, const s
                                       Observer &observer) {
     Stopwatch watch;
     MeasurementSubject subject{prepareScene(request.scene, Source::Dropped, observer), {}, {}};
+    if (const RenderSettings &settings = subject.scene.loaded.settings; isAdaptive(settings))
+        throw OverrideError("noise",
+                            fmt::format("found {}, and a measurement has as many samples in each pixel; "
+                                        "allowed: 0%, with spp",
+                                        percentText(settings.noise)));
     const PreparedScene &scene = subject.scene;
     Profile &profile = subject.profile;
     const Span prepared = watch.lap();

@@ -4,6 +4,10 @@
 
 #include "host/base/json_text.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace hyalite::core {
 
 nlohmann::ordered_json raysToJson(const RayCounts &rays) {
@@ -25,15 +29,46 @@ nlohmann::ordered_json namesToJson(const std::vector<std::string> &names) {
 
 FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel) {
     FinishedWork finished;
+    finished.fewestSamples = std::numeric_limits<std::uint32_t>::max();
     visitRowsIn(film, squares, [&](std::span<const layout::FilmPixel> row) {
         finished.wantedPixelCount += row.size();
         for (const layout::FilmPixel &pixel : row) {
             finished.pixelCount += pixel.sampleCount == static_cast<std::uint32_t>(samplesPerPixel);
             finished.sampleCount += pixel.sampleCount;
+            finished.fewestSamples = std::min(finished.fewestSamples, pixel.sampleCount);
+            finished.mostSamples = std::max(finished.mostSamples, pixel.sampleCount);
         }
     });
     finished.isComplete = finished.pixelCount == finished.wantedPixelCount;
     return finished;
+}
+
+FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, const RenderSettings &settings) {
+    FinishedWork finished = finishedWork(film, squares, settings.samplesPerPixel);
+    if (isAdaptive(settings)) {
+        finished.noise = noiseOf(film, blocksInFilm(film.crop, squares), noiseTargetOf(settings));
+        finished.pixelCount = finished.noise->finishedPixels;
+        finished.isComplete = finished.pixelCount == finished.wantedPixelCount;
+    }
+    return finished;
+}
+
+namespace {
+
+/// Null for what is not known yet.
+nlohmann::ordered_json numberOrNull(double number) {
+    return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json();
+}
+
+} // namespace
+
+nlohmann::ordered_json noiseToJson(const PictureNoise &noise, double wanted) {
+    return {{"wanted", wanted},
+            {"highest", numberOrNull(noise.highest)},
+            {"mean", numberOrNull(noise.mean)},
+            {"blocks", noise.blockCount},
+            {"blocksAtTarget", noise.atTarget},
+            {"blocksAtLimit", noise.atLimit}};
 }
 
 std::string formatReport(const RenderReport &report) {
@@ -43,7 +78,12 @@ std::string formatReport(const RenderReport &report) {
     finished = {{"isComplete", report.finished.isComplete},
                 {"pixels", report.finished.pixelCount},
                 {"samples", report.finished.sampleCount},
+                {"fewestSamples", report.finished.fewestSamples},
+                {"mostSamples", report.finished.mostSamples},
+                {"noise", nullptr},
                 {"stoppedBy", nullptr}};
+    if (report.finished.noise)
+        finished["noise"] = noiseToJson(*report.finished.noise, report.origin.settings.noise);
     if (!report.stoppedBy.empty())
         finished["stoppedBy"] = report.stoppedBy;
     json["resumed"] = nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/film/film.h"
+#include "host/film/noise.h"
 #include "host/film/ray_counts.h"
 #include "host/film/render_timing.h"
 #include "host/report/provenance.h"
@@ -22,11 +23,23 @@ struct FinishedWork {
     std::uint64_t wantedPixelCount = 0;
     std::uint64_t pixelCount = 0; ///< with all of their samples
     std::uint64_t sampleCount = 0;
-    bool isComplete = false; ///< all samples of all pixels are
+    std::uint32_t fewestSamples = 0; ///< of a pixel
+    std::uint32_t mostSamples = 0;
+    bool isComplete = false;             ///< all samples of all pixels are
+    std::optional<PictureNoise> noise{}; ///< of an adaptive render
+
+    [[nodiscard]] double meanSamples() const {
+        return wantedPixelCount > 0 ? static_cast<double>(sampleCount) / static_cast<double>(wantedPixelCount)
+                                    : 0.0;
+    }
 };
 
 /// The finished samples of these squares of `film`, of `samplesPerPixel` samples in each pixel.
 [[nodiscard]] FinishedWork finishedWork(const Film &film, std::span<const Crop> squares, int samplesPerPixel);
+
+/// The same of a picture with these settings. The squares of an adaptive one are of whole blocks (noise.h).
+[[nodiscard]] FinishedWork finishedWork(const Film &film, std::span<const Crop> squares,
+                                        const RenderSettings &settings);
 
 /// The checkpoint that a render continued.
 struct ResumedWork {
@@ -48,8 +61,8 @@ struct RenderReport {
     std::vector<RendererShare> shares; ///< of several renderers, if there are several
     /// Of layers of numbers: the layer's name, and the names of the numbers from 1 on.
     std::vector<std::pair<std::string, std::vector<std::string>>> numbers;
-    RayCounts rays;                ///< traced for the image, before and now
-    std::uint64_t deviceBytes = 0; ///< peak memory on a device; 0: on the CPU
+    RayCounts rays;                           ///< traced for the image, before and now
+    std::uint64_t deviceBytes = 0;            ///< peak memory on a device; 0: on the CPU
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
     RenderTiming timing;
@@ -62,6 +75,9 @@ struct RenderReport {
 [[nodiscard]] nlohmann::ordered_json raysToJson(const RayCounts &rays);
 /// An object of names by their numbers, from 1 on.
 [[nodiscard]] nlohmann::ordered_json namesToJson(const std::vector<std::string> &names);
+
+/// Of a picture that was to have this noise; null where it is not known yet.
+[[nodiscard]] nlohmann::ordered_json noiseToJson(const PictureNoise &noise, double wanted);
 
 [[nodiscard]] std::string formatReport(const RenderReport &report);
 

@@ -41,7 +41,10 @@ struct RenderSettings {
     bool hasLightGroups = false;   ///< ... and by group of emitters
     bool isDenoised = false;       ///< Whitted, Path: the denoiser filters the picture, ...
     bool hasDenoisingData = false; ///< ... or the file has what it needs
-    double exposureStops = 0.0;    ///< radiance is multiplied by 2^exposureStops before the tone curve
+    /// Whitted, Path: pixels get samples until the estimated error of each block is below it (host/film/noise.h), and
+    /// samplesPerPixel at most. 0: samplesPerPixel in any case.
+    double noise = 0.0;
+    double exposureStops = 0.0; ///< radiance is multiplied by 2^exposureStops before the tone curve
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
@@ -64,6 +67,24 @@ struct RenderSettings {
     return (settings.isDenoised || settings.hasDenoisingData) && rowOf(settings.integrator).showsLight &&
            !settings.isWorkShown;
 }
+
+/// Whether the number of a pixel's samples depends on its noise.
+[[nodiscard]] inline bool isAdaptive(const RenderSettings &settings) {
+    return settings.noise > 0.0 && rowOf(settings.integrator).showsLight && !settings.isWorkShown;
+}
+
+/// The noise that a render is to reach; 0: none.
+[[nodiscard]] inline double wantedNoise(const RenderSettings &settings) {
+    return isAdaptive(settings) ? settings.noise : 0.0;
+}
+
+/// Whether a film keeps first samples (host/film/first_samples.h).
+[[nodiscard]] inline bool keepsFirst(const RenderSettings &settings) {
+    return keepsDenoisingData(settings) || isAdaptive(settings);
+}
+
+/// The most samples of a pixel where a noise is asked for, and no number of samples.
+inline constexpr int samplesForNoise = 4096;
 
 /// Whether a sample is its traversal work, of a traversal with a stack: nodes, boxes and triangles.
 [[nodiscard]] inline bool showsWork(const RenderSettings &settings) {

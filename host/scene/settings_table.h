@@ -18,6 +18,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -28,6 +29,9 @@ template <class Number> struct NumberSetting {
     Number RenderSettings::*member;
     Interval allowed;
 };
+
+/// A share, which the command line has in percent: 2%.
+struct ShareSetting : NumberSetting<double> {};
 
 /// Yes or no.
 struct FlagSetting {
@@ -41,8 +45,8 @@ template <class Value> struct ChoiceSetting {
 };
 
 using SettingValue =
-    std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>, FlagSetting,
-                 ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>, ChoiceSetting<SamplerKind>,
+    std::variant<NumberSetting<int>, NumberSetting<double>, NumberSetting<std::uint32_t>, ShareSetting,
+                 FlagSetting, ChoiceSetting<Integrator>, ChoiceSetting<TreeKind>, ChoiceSetting<SamplerKind>,
                  ChoiceSetting<FilterKind>, ChoiceSetting<LightChoice>>;
 
 /// The effect of a setting. A checkpoint resumes only with the same samples; their count, the tree and the exposure may
@@ -78,7 +82,13 @@ inline constexpr auto settingsTable = std::to_array<Setting>({
     {"integrator", "integrator", ChoiceSetting<Integrator>{&RenderSettings::integrator, integratorNames},
      Changes::Samples, tracingGroup, "what a sample estimates"},
     {"spp", "spp", NumberSetting<int>{&RenderSettings::samplesPerPixel, {1, 65536}}, Changes::SampleCount,
-     imageGroup, "samples per pixel"},
+     imageGroup, "samples per pixel; with noise: at most, and by default 4096"},
+    {"noise", "noise", ShareSetting{{&RenderSettings::noise, {0.0, 1.0}}}, Changes::SampleCount, imageGroup,
+     "samples are added where they are needed until the estimated error of the picture is below it, in each "
+     "block of 32x32 pixels, in proportion to its light; 2%: hardly visible, 10%: grainy; 0%: the same "
+     "number "
+     "of samples in each pixel",
+     ofLight},
     {"maxDepth", "max-depth", NumberSetting<int>{&RenderSettings::maxDepth, {1, layout::maxPathDepth}},
      Changes::Samples, tracingGroup,
      "maximum number of path segments, the primary ray included; with whitted, glass splits paths in two, so "
@@ -158,6 +168,11 @@ template <class Number> [[nodiscard]] constexpr Interval rangeOf(Number RenderSe
         if (const auto *number = std::get_if<NumberSetting<Number>>(&setting.value))
             if (number->member == member)
                 return number->allowed;
+    if constexpr (std::is_same_v<Number, double>)
+        for (const Setting &setting : settingsTable)
+            if (const auto *share = std::get_if<ShareSetting>(&setting.value))
+                if (share->member == member)
+                    return share->allowed;
     throw "no such setting"; // a compile-time error, as this is a constant expression
 }
 

@@ -154,7 +154,7 @@ worldToNDC (type m44f):
         "settings.exposure settings.filter settings.integrator "
         "settings.layersThrough settings.leafSize settings.lightChoice settings.lightGroups "
         "settings.lightLayers settings.maxDepth "
-        "settings.occlusionDistance "
+        "settings.noise settings.occlusionDistance "
         "settings.sampler "
         "settings.seed settings.spp software triangles type ");
 }

@@ -49,7 +49,7 @@ class Parts : public CommandLine {
                 const std::function<void(std::string &, std::size_t, std::size_t)> &change,
                 std::size_t layerCount = 0) const {
         std::string bytes = load(name);
-        constexpr std::size_t headBytes = 19 + 96;
+        constexpr std::size_t headBytes = 19 + 104;
         std::uint32_t identityBytes = 0;
         std::uint32_t originBytes = 0;
         std::memcpy(&identityBytes, bytes.data() + 19 + 4, sizeof identityBytes);

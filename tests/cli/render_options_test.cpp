@@ -388,7 +388,7 @@ TEST_F(RenderOptions, TheCommandLineBeatsTheSceneFile) {
                                 {"alpha", false},          {"alphaThroughGlass", false},
                                 {"lightLayers", false},    {"lightGroups", false},
                                 {"denoise", false},        {"denoisingData", false},
-                                {"layersThrough", false}};
+                                {"layersThrough", false},  {"noise", 0.0}};
     EXPECT_EQ(own.at("settings"), wanted);
     const nlohmann::json overridden =
         renderReport("own.json --width 4 --spp 2 --integrator path --clamp 0.5" + onCpu);
@@ -418,7 +418,8 @@ TEST_F(RenderOptions, DefaultsAreThoseOfTheSceneFormat) {
                                 {"lightGroups", false},
                                 {"denoise", false},
                                 {"denoisingData", false},
-                                {"layersThrough", false}};
+                                {"layersThrough", false},
+                                {"noise", 0.0}};
     EXPECT_EQ(report.at("settings"), wanted);
     expectFailure("render empty.json -o a.png --crop 0,513,0,512", 2, {"512x512"});
 }

@@ -33,22 +33,25 @@ std::set<std::string> keysOf(const nlohmann::json &object) {
 TEST_F(RenderReport, HasAllItsKeys) {
     for (const std::string &device : {std::string("cpu"), softwareDevice()}) {
         const nlohmann::json report = renderReport("sheet.json" + smallReported + " --device " + device);
-        EXPECT_EQ(keysOf(report),
-                  (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
-                                         "image", "settings", "triangles", "finished", "denoised", "faults",
-                                         "resumed", "rays", "dispatches", "deviceBytes", "seconds"}));
+        EXPECT_EQ(
+            keysOf(report),
+            (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
+                                   "image", "settings", "triangles", "finished", "denoised", "faults",
+                                   "resumed", "rays", "dispatches", "deviceBytes", "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
-                  (std::set<std::string>{"isComplete", "pixels", "samples", "stoppedBy"}));
+                  (std::set<std::string>{"isComplete", "pixels", "samples", "fewestSamples", "mostSamples",
+                                         "noise", "stoppedBy"}));
         std::set<std::string> ofDevice{"name", "driver", "arithmetic", "equalBits"};
         if (device != "cpu")
             ofDevice.insert("kernel");
         EXPECT_EQ(keysOf(report.at("device")), ofDevice);
         EXPECT_EQ(keysOf(report.at("image")), (std::set<std::string>{"width", "height"}));
         EXPECT_EQ(keysOf(report.at("settings")),
-                  (std::set<std::string>{"integrator", "spp", "maxDepth", "occlusionDistance", "bvh",
-                                         "leafSize", "sampler", "filter", "seed", "clamp", "alpha",
-                                         "alphaThroughGlass", "layersThrough", "lightLayers", "lightGroups",
-                                         "denoise", "denoisingData", "exposure", "lightChoice"}));
+                  (std::set<std::string>{"integrator",    "spp",         "maxDepth",    "occlusionDistance",
+                                         "bvh",           "leafSize",    "sampler",     "filter",
+                                         "seed",          "clamp",       "alpha",       "alphaThroughGlass",
+                                         "layersThrough", "lightLayers", "lightGroups", "denoise",
+                                         "denoisingData", "exposure",    "lightChoice", "noise"}));
         EXPECT_EQ(keysOf(report.at("rays")), (std::set<std::string>{"primary", "shadow", "reflection",
                                                                     "refraction", "bounce", "total"}));
         EXPECT_EQ(keysOf(report.at("seconds")),
@@ -66,9 +69,13 @@ TEST_F(RenderReport, SaysWhatWasAsked) {
     EXPECT_EQ(report.at("image"), (nlohmann::json{{"width", 5}, {"height", 4}}));
     EXPECT_EQ(report.at("triangles"), 2 * 12 * 12);
     EXPECT_EQ(report.at("rays").at("primary"), 5 * 4 * 2);
-    EXPECT_EQ(report.at("finished"),
-              (nlohmann::json{
-                  {"isComplete", true}, {"pixels", 5 * 4}, {"samples", 5 * 4 * 2}, {"stoppedBy", nullptr}}));
+    EXPECT_EQ(report.at("finished"), (nlohmann::json{{"isComplete", true},
+                                                     {"pixels", 5 * 4},
+                                                     {"samples", 5 * 4 * 2},
+                                                     {"fewestSamples", 2},
+                                                     {"mostSamples", 2},
+                                                     {"noise", nullptr},
+                                                     {"stoppedBy", nullptr}}));
 }
 
 /// The text with a keyword in a PNG.

@@ -197,7 +197,7 @@ TEST_F(CheckpointTest, HugeSizesAreRefusedByTheSizeOfTheFile) {
             EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
     // The part, the samples that are wanted, layers, and bytes of the origin.
     for (const std::uint32_t word : {2u, 1u << 17, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu})
-        for (const std::size_t offset : {64u, 68u, 72u, 76u, 80u, 84u, 88u})
+        for (const std::size_t offset : {64u, 68u, 72u, 76u, 80u, 84u, 88u, 92u, 100u})
             EXPECT_NE(refusalWith(offset, word).find("damaged"), std::string::npos) << word << ' ' << offset;
 }
 

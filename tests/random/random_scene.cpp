@@ -348,7 +348,8 @@ class SceneDrawer {
             settings["integrator"] = draws_.oneOf(integratorNames).first;
         if (draws_.chance(0.3))
             settings["shadowThroughGlass"] = draws_.number(limits::fraction);
-        settings["spp"] = draws_.whole(1, 4);
+        const bool isDenoised = settings.value("denoise", false) || settings.value("denoisingData", false);
+        settings["spp"] = draws_.whole(isDenoised ? 2 : 1, 4);
         settings["maxDepth"] = draws_.whole(1, settings["integrator"] == nameOf(Integrator::Path) ? 32 : 8);
         if (settings.contains("filter") && settings["filter"] != nameIn(filterNames, FilterKind::Box))
             settings["sampler"] = nameOf(SamplerKind::Sobol);
