@@ -11,6 +11,7 @@
 #include "host/jobs/diagnosis.h"
 #include "host/jobs/film_picture.h"
 #include "host/jobs/layers.h"
+#include "host/jobs/noisiest_pixels.h"
 #include "host/jobs/periodic_files.h"
 #include "host/jobs/projection.h"
 #include "host/packing/light_planes.h"
@@ -202,6 +203,8 @@ class PictureRender {
         FinishedPicture finished;
         take(result, finished);
         writeFiles(result.film, finished);
+        if (files_.report)
+            report_.noisiest = noisiestPixels(scene, result.film, squares_);
         writeReport();
         if (report_.finished.isComplete && !request_.part)
             finished.diagnosis = diagnose(result.film);

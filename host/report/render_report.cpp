@@ -108,6 +108,14 @@ std::string formatReport(const RenderReport &report) {
     }
     for (const auto &[layer, names] : report.numbers)
         json["numbers"][layer] = namesToJson(names);
+    json["noisiest"] = nlohmann::ordered_json::array();
+    for (const NoisyPixelReport &pixel : report.noisiest)
+        json["noisiest"].push_back({{"pixel", {pixel.x, pixel.y}},
+                                    {"noise", pixel.noise},
+                                    {"sample", pixel.sample},
+                                    {"radiance", {pixel.radiance.x, pixel.radiance.y, pixel.radiance.z}},
+                                    {"share", pixel.share},
+                                    {"path", pixel.path}});
     json["rays"] = raysToJson(report.rays);
     json["dispatches"] = report.timing.dispatchCount;
     json["deviceBytes"] = nullptr;

@@ -41,6 +41,17 @@ struct FinishedWork {
 [[nodiscard]] FinishedWork finishedWork(const Film &film, std::span<const Crop> squares,
                                         const RenderSettings &settings);
 
+/// A noisy pixel of the whole image.
+struct NoisyPixelReport {
+    int x = 0;
+    int y = 0;
+    double noise = 0.0;              ///< relative standard deviation of its mean, as of independent samples
+    std::uint32_t sample = 0;        ///< the brightest one
+    glm::vec3 radiance{0.0f};        ///< of it
+    double share = 0.0;              ///< of it in the sum of all samples
+    std::vector<std::string> path{}; ///< of it: what it met, from the eye on, and where its light came from
+};
+
 /// The checkpoint that a render continued.
 struct ResumedWork {
     std::string checkpoint; ///< path of the file
@@ -61,6 +72,7 @@ struct RenderReport {
     std::vector<RendererShare> shares; ///< of several renderers, if there are several
     /// Of layers of numbers: the layer's name, and the names of the numbers from 1 on.
     std::vector<std::pair<std::string, std::vector<std::string>>> numbers;
+    std::vector<NoisyPixelReport> noisiest{}; ///< pixels, the noisiest first
     RayCounts rays;                           ///< traced for the image, before and now
     std::uint64_t deviceBytes = 0;            ///< peak memory on a device; 0: on the CPU
     double loadSeconds = 0.0;

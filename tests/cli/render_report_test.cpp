@@ -37,7 +37,7 @@ TEST_F(RenderReport, HasAllItsKeys) {
             keysOf(report),
             (std::set<std::string>{"program", "commandLine", "scene", "sceneHash", "output", "device",
                                    "image", "settings", "triangles", "finished", "denoised", "faults",
-                                   "resumed", "rays", "dispatches", "deviceBytes", "seconds"}));
+                                   "resumed", "rays", "noisiest", "dispatches", "deviceBytes", "seconds"}));
         EXPECT_EQ(keysOf(report.at("finished")),
                   (std::set<std::string>{"isComplete", "pixels", "samples", "fewestSamples", "mostSamples",
                                          "noise", "stoppedBy"}));
