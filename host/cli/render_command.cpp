@@ -339,9 +339,10 @@ ExitCode renderViewSheet(const ViewSeries &series, const RenderRequest &request,
         printMessage("stopped by the time limit: {} of {} views are finished\n", sheet.viewCount,
                      series.views().size());
     if (!observer.isQuiet())
-        printResult("{}: {}, {}x{} each, {}x{} in all, {} spp, {} in {:.3f} s\n", request.output,
+        printResult("{}: {}, {}x{} each, {}x{} in all, {}{} spp, {} in {:.3f} s\n", request.output,
                     countText(series.views().size(), "view"), session.scene().crop.width(),
                     session.scene().crop.height(), sheet.width, sheet.height,
+                    isAdaptive(session.scene().loaded.settings) ? "up to " : "",
                     session.scene().loaded.settings.samplesPerPixel, roundedText(sheet.rayCount, "rays"),
                     sheet.renderSeconds);
     observer.releaseSignals();

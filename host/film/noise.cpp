@@ -1,7 +1,6 @@
 #include "host/film/noise.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -77,11 +76,9 @@ struct BlockStatistics {
 
     BlockStatistics(const FilmRecords &film, const NoiseBlock &block, double darkness)
         : sampleVariance(block.pixelCount()) {
-        std::array<Values, 3> means;
         Values squaredDifferences(block.pixelCount());
         for (glm::length_t channel = 0; channel < 3; ++channel) {
-            Values &mean = means[static_cast<std::size_t>(channel)];
-            mean.resize(block.pixelCount());
+            Values mean(block.pixelCount());
             for (std::size_t i = 0; i < mean.size(); ++i) {
                 const layout::FilmPixel &pixel = film.pixels[block.indexOf(i)];
                 const double value = sumOf(pixel)[channel] / pixel.sampleCount;
@@ -90,13 +87,16 @@ struct BlockStatistics {
             const Values around = meansOfNeighbours(mean, block);
             for (std::size_t i = 0; i < mean.size(); ++i) {
                 const layout::FilmPixel &pixel = film.pixels[block.indexOf(i)];
-                const double seen = std::min(std::abs(mean[i]), std::abs(around[i]));
+                const double brightness = std::abs(mean[i]);
+                const double variance = varianceOfMean(pixel)[channel];
+                const double seen =
+                    std::max(std::min(brightness, std::abs(around[i])), brightness - std::sqrt(variance));
                 const double weight = 1.0 / (3.0 * (seen * seen + darkness * darkness));
                 const double difference =
                     film.first.empty()
                         ? 0.0
                         : static_cast<double>(film.first[block.indexOf(i)].mean[channel]) - mean[i];
-                sampleVariance[i] += weight * varianceOfMean(pixel)[channel] * pixel.sampleCount;
+                sampleVariance[i] += weight * variance * pixel.sampleCount;
                 squaredDifferences[i] += weight * difference * difference;
             }
         }

@@ -7,6 +7,7 @@
 //     variance of the mean / (m^2 + darkness^2)
 //
 // m is the pixel's mean, or that of its neighbours where theirs is less: one bright path in a dark place is no light place.
+// But where a pixel's samples agree, as those of a lamp in the dark do, m is its mean less the standard deviation of that.
 //
 // Samples are points of a scrambled net, so that the variance of their mean falls faster than theirs by their number: as
 // n^-p. A block's p is found by what is known beside the variance of single samples: the first samples of a pixel and all of

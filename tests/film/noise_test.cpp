@@ -139,6 +139,18 @@ TEST(Noise, IsNotFooledByABrightPathInTheDark) {
     EXPECT_GT(noiseOf(sampled.film(), sampled.blocks()[0], targetAt(0.1)).noise, 1.0);
 }
 
+// A lamp of one pixel, seen by all samples alike, has no noise however dark it is around it.
+TEST(Noise, OfALampInTheDarkIsThatOfTheLamp) {
+    const auto sample = [](std::size_t pixel, std::mt19937 &random) {
+        return pixel == 500 ? gaussian(random, 100.0f, 5.0f) : 0.0f;
+    };
+    SampledFilm sampled(32, 32, 9);
+    beginRounds(sampled.film(), sampled.blocks(), targetAt(0.1));
+    sampled.add(sample);
+    const double ofLamp = 0.05 / std::sqrt(16.0); // of 1,024 pixels
+    EXPECT_LT(noiseOf(sampled.film(), sampled.blocks()[0], targetAt(0.1)).noise, 2.0 * ofLamp / 32.0);
+}
+
 TEST(Noise, RoundsDependOnNeitherTargetNorLimit) {
     const auto sample = [](std::size_t pixel, std::mt19937 &random) {
         return gaussian(random, 0.5f, pixel % 7 == 0 ? 0.6f : 0.1f);
