@@ -66,7 +66,8 @@ def estimate(renderer, scene, noise, size, seeds):
         image = renderer.render(scene, noise=noise, spp=4096, seed=seed, **size)
         add("adaptive", image)
         samples.append(image.samples.mean())
-        add("uniform", renderer.render(scene, spp=round(samples[-1]), seed=seed, **size))
+        # A number that does not depend on this seed's samples, which would choose those that it likes.
+        add("uniform", renderer.render(scene, spp=round(samples[0]), seed=seed + 10**7, **size))
     means = {kind: np.mean(rows, 0) for kind, rows in figures.items()}
     ratios = [means[kind][0] / means[kind][1] for kind in ("first", "adaptive")]
     brighter = np.array([a[2] - u[2] for a, u in zip(figures["adaptive"], figures["uniform"])])
