@@ -50,20 +50,20 @@ FinishedWork workIn(const Film &film, const PreparedScene &scene) {
 }
 
 TEST(AdaptiveRender, ReachesItsNoiseWithFewSamplesWhereFewAreNeeded) {
-    const PreparedScene scene = prepareNoisy(0.15, 1024);
+    const PreparedScene scene = prepareNoisy(0.06, 1024);
     const Film film = renderedBy(*openBackend("cpu", nobody()), scene);
     const FinishedWork work = workIn(film, scene);
     ASSERT_TRUE(work.noise);
     EXPECT_TRUE(work.isComplete);
     EXPECT_EQ(work.noise->atTarget, work.noise->blockCount);
-    EXPECT_LE(work.noise->highest, 0.15);
+    EXPECT_LE(work.noise->highest, 0.06);
     EXPECT_GE(work.mostSamples, 2 * work.fewestSamples);
     EXPECT_TRUE(hasFirst(film));
 }
 
 // The counts of the film say which samples each pixel has.
 TEST(AdaptiveRender, HasThePixelsOfARenderOfAsManySamples) {
-    const PreparedScene scene = prepareNoisy(0.2, 1024);
+    const PreparedScene scene = prepareNoisy(0.08, 1024);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     const Film film = renderedBy(*cpu, scene);
     for (const std::uint32_t count : {16u, 24u, 48u, 64u}) {
@@ -77,7 +77,7 @@ TEST(AdaptiveRender, HasThePixelsOfARenderOfAsManySamples) {
 }
 
 TEST(AdaptiveRender, IsTheSameByAnyRenderers) {
-    const PreparedScene scene = prepareNoisy(0.2, 64, "caustics");
+    const PreparedScene scene = prepareNoisy(0.08, 64, "caustics");
     const auto device = [] { return openBackend(std::to_string(testDevice().index), nobody()); };
     const Film film = renderedBy(*openBackend("cpu", nobody()), scene);
     EXPECT_EQ(differingPixelCount(renderedBy(*device(), scene), film), 0u);
@@ -101,7 +101,7 @@ struct FewCopies : SnapshotTaker {
 };
 
 TEST(AdaptiveRender, GoesOnFromAnyCopyToTheSameBits) {
-    const PreparedScene scene = prepareNoisy(0.2, 96);
+    const PreparedScene scene = prepareNoisy(0.08, 96);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     FewCopies copies;
     const BackendResult whole =
@@ -117,11 +117,11 @@ TEST(AdaptiveRender, GoesOnFromAnyCopyToTheSameBits) {
 
 TEST(AdaptiveRender, GoesOnToLessNoiseOrMoreSamplesAsIfAskedAtOnce) {
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
-    const PreparedScene scene = prepareNoisy(0.12, 200);
+    const PreparedScene scene = prepareNoisy(0.05, 200);
     const Film whole = renderedBy(*cpu, scene);
     Film film = renderedBy(*cpu, prepareNoisy(0.4, 30)); // the limit is between two counts
-    film = renderedBy(*cpu, prepareNoisy(0.25, 30), std::move(film));
-    film = renderedBy(*cpu, prepareNoisy(0.25, 64), std::move(film));
+    film = renderedBy(*cpu, prepareNoisy(0.1, 30), std::move(film));
+    film = renderedBy(*cpu, prepareNoisy(0.1, 64), std::move(film));
     EXPECT_GT(differingPixelCount(film, whole), 0u);
     EXPECT_EQ(differingPixelCount(renderedBy(*cpu, scene, std::move(film)), whole), 0u);
 }
@@ -136,10 +136,10 @@ TEST(AdaptiveRender, StopsAtTheLimit) {
 }
 
 TEST(AdaptiveRender, OfPartsIsThatOfTheWhole) {
-    const PreparedScene scene = prepareNoisy(0.2, 64);
+    const PreparedScene scene = prepareNoisy(0.08, 64);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     const Film whole = renderedBy(*cpu, scene);
-    const Partition partition(scene.crop, 3, smallestSquare(0.2));
+    const Partition partition(scene.crop, 3, smallestSquare(0.08));
     Film merged(scene.crop);
     for (std::uint32_t part = 1; part <= 3; ++part) {
         const std::span<const Crop> squares = partition.squaresOf(part);
@@ -158,24 +158,24 @@ TEST(AdaptiveRender, TellsProgressAndNoise) {
             last = share;
         }
         void noise(double reached, double wanted) override {
-            EXPECT_EQ(wanted, 0.2);
+            EXPECT_EQ(wanted, 0.08);
             noises.push_back(reached);
         }
         double last = 0.0;
         std::vector<double> noises;
     } watch;
-    const PreparedScene scene = prepareNoisy(0.2, 256);
+    const PreparedScene scene = prepareNoisy(0.08, 256);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     static_cast<void>(
         render(*cpu, scene.packed, scene.loaded.settings, Film(scene.crop), watch, {.name = "test"}));
     EXPECT_EQ(watch.last, 1.0);
     ASSERT_GE(watch.noises.size(), 2u);
-    EXPECT_GT(watch.noises.front(), 0.2);
-    EXPECT_LE(watch.noises.back(), 0.2);
+    EXPECT_GT(watch.noises.front(), 0.08);
+    EXPECT_LE(watch.noises.back(), 0.08);
 }
 
 TEST(AdaptiveRender, ThatIsStoppedKeepsWhatIsThere) {
-    const PreparedScene scene = prepareNoisy(0.05, 256);
+    const PreparedScene scene = prepareNoisy(0.03, 256);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     std::atomic<int> asked = 0;
     const BackendResult stopped = renderInStages(*cpu, scene.packed, scene.loaded.settings, Film(scene.crop),
