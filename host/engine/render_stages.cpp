@@ -5,10 +5,8 @@
 #include "host/film/noise.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -150,9 +150,9 @@ struct BlockStatistics {
     }
 };
 
-/// The counts that pixels may have: 16, 24, 32, 48, 64, 96 ...
+/// The counts that pixels may have: 16, 24, 32, 48, 64, 96 ... More than any other count, too, that a file may have.
 std::uint32_t nextCount(std::uint32_t count) {
-    return std::has_single_bit(count) ? count / 2 * 3 : count / 3 * 4;
+    return std::max(count + 1, std::has_single_bit(count) ? count / 2 * 3 : count / 3 * 4);
 }
 
 /// The factor of `needs` by which `counts`, of which none falls, sum up to `total`.
