@@ -6,6 +6,7 @@
 #include "host/film/noise.h"
 #include "host/film/partition.h"
 #include "host/report/render_report.h"
+#include "tests/fixtures/film_copies.h"
 #include "tests/fixtures/test_device.h"
 
 #include <gtest/gtest.h>
@@ -87,23 +88,10 @@ TEST(AdaptiveRender, IsTheSameByAnyRenderers) {
     EXPECT_EQ(differingPixelCount(renderedBy(*shareBackends(std::move(members)), scene), film), 0u);
 }
 
-/// Takes a few of all copies that there could be.
-struct FewCopies : SnapshotTaker {
-    [[nodiscard]] bool isWanted() const noexcept override { return askedCount++ % 2003 == 0; }
-    void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) override {
-        films.emplace_back(Crop{});
-        copyTo(films.back());
-        counts.push_back(rays);
-    }
-    std::vector<Film> films;
-    std::vector<RayCounts> counts;
-    mutable std::atomic<int> askedCount = 0;
-};
-
 TEST(AdaptiveRender, GoesOnFromAnyCopyToTheSameBits) {
     const PreparedScene scene = prepareNoisy(0.08, 96);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
-    FewCopies copies;
+    FilmCopies copies(2003);
     const BackendResult whole =
         renderInStages(*cpu, scene.packed, scene.loaded.settings, Film(scene.crop), {.snapshots = &copies});
     EXPECT_GT(copies.films.size(), 10u);

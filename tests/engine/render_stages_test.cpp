@@ -4,12 +4,12 @@
 #include "host/engine/shared_backend.h"
 #include "host/film/first_samples.h"
 #include "host/film/partition.h"
+#include "tests/fixtures/film_copies.h"
 #include "tests/fixtures/test_device.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -114,24 +114,11 @@ TEST(RenderStages, TellProgressOnce) {
     EXPECT_NEAR(observer.last, 1.0, 1e-9);
 }
 
-/// Takes a few of all copies that there could be.
-struct Copies : SnapshotTaker {
-    [[nodiscard]] bool isWanted() const noexcept override { return askedCount++ % 151 == 0; }
-    void take(const std::function<void(Film &)> &copyTo, const RayCounts &rays) override {
-        films.emplace_back(Crop{});
-        copyTo(films.back());
-        counts.push_back(rays);
-    }
-    std::vector<Film> films;
-    std::vector<RayCounts> counts;
-    mutable std::atomic<int> askedCount = 0;
-};
-
 // Wherever a checkpoint was taken: in the first stage, between the two, or in the second one.
 TEST(RenderStages, GoOnFromAnyCopyToTheSameBits) {
     const PreparedScene scene = prepareDenoised(6);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
-    Copies copies;
+    FilmCopies copies(151);
     const BackendResult whole =
         renderInStages(*cpu, scene.packed, scene.loaded.settings, Film(scene.crop), {.snapshots = &copies});
     std::size_t inFirst = 0;
