@@ -43,9 +43,9 @@ enum class ExrWindow {
 };
 
 /// Reads R, G and B, or Y as three equal channels, of a window: from the named layer, or from the channels
-/// without a layer. A layer with a single value is read as grey; "depth" and "Z" are the same layer. Half floats and
-/// integers become float32; all compressions are supported. Throws Error{BadInput}, also for tiles, deep pixels,
-/// several parts, and a missing layer. Throws Error{LimitExceeded} for files that would take more memory than
+/// without a layer. A layer of X, Y and Z is read as these, one with a single value as grey; "depth" and "Z" are the same
+/// layer. Half floats and integers become float32; all compressions are supported. Throws Error{BadInput}, also for tiles,
+/// deep pixels, several parts, and a missing layer. Throws Error{LimitExceeded} for files that would take more memory than
 /// readingBytesMax.
 [[nodiscard]] Image readExr(const InputFile &file, const std::string &layer = "",
                             ExrWindow window = ExrWindow::Data);
@@ -56,6 +56,9 @@ enum class ExrWindow {
 /// The values of a layer of one whole number a pixel (UINT), exactly, row by row. Throws as readExr() does, and
 /// Error{BadInput} for other types.
 [[nodiscard]] std::vector<std::uint32_t> readExrWhole(const InputFile &file, const std::string &layer);
+
+/// Whether the layer has a single value. Throws as readExr() does.
+[[nodiscard]] bool isGreyExrLayer(const InputFile &file, const std::string &layer);
 
 /// Whether the file has that layer. Throws as readExr() does if the header cannot be read.
 [[nodiscard]] bool hasExrLayer(const InputFile &file, const std::string &layer);

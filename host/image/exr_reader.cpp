@@ -213,16 +213,18 @@ std::string otherNameOf(const std::string &layer) {
 
 std::string prefixOf(const std::string &layer) { return layer.empty() ? "" : layer + "."; }
 
-/// The names of the R, G and B channels of a layer, if it has them.
+/// The names of the channels of a layer that are read as R, G and B, if it has them.
 std::optional<std::array<std::string, 3>> findChannels(const Imf::ChannelList &channels,
                                                        const std::string &layer) {
     const std::string prefix = prefixOf(layer);
-    const std::array<std::string, 3> rgb{prefix + "R", prefix + "G", prefix + "B"};
-    if (std::all_of(rgb.begin(), rgb.end(),
-                    [&](const std::string &name) { return channels.findChannel(name); }))
-        return rgb;
+    const auto has = [&](const std::string &name) { return channels.findChannel(name) != nullptr; };
+    for (const std::string_view letters : {"RGB", "XYZ"}) {
+        const std::array<std::string, 3> names{prefix + letters[0], prefix + letters[1], prefix + letters[2]};
+        if ((letters == "RGB" || !layer.empty()) && std::ranges::all_of(names, has))
+            return names;
+    }
     for (const std::string &name : {layer, prefix + "Y", otherNameOf(layer)})
-        if (channels.findChannel(name) != nullptr && channels.findChannel(prefix + "RY") == nullptr)
+        if (has(name) && !has(prefix + "RY"))
             return {{name, name, name}};
     return std::nullopt;
 }
@@ -532,6 +534,14 @@ AlphaImage readExrWithAlpha(const InputFile &file) {
                          [&](auto &reader, const Imf::Header &header, const FoundLayer &found) {
                              return readPixels(file, reader, header, found, true);
                          });
+    });
+}
+
+bool isGreyExrLayer(const InputFile &file, const std::string &layer) {
+    return asked(file, [&] {
+        return withLayer(file, layer, false, [](auto &, const Imf::Header &, const FoundLayer &found) {
+            return found.channels[0] == found.channels[1];
+        });
     });
 }
 

@@ -1,12 +1,17 @@
 // `tonemap`, and `render --tone`.
+#include "host/base/input_file.h"
+#include "host/image/exr.h"
+#include "host/image/false_colour.h"
 #include "host/image/image_file.h"
 #include "tests/cli/command_line.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace hyalite::core::testing {
 namespace {
@@ -45,6 +50,35 @@ TEST_F(ToneMapping, ReadsHdr) {
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(a.pixels()[i][channel], b.pixels()[i][channel],
                         0.06f); // dark channels beside bright ones
+}
+
+TEST_F(ToneMapping, ALayerOfColoursIsMappedAndOneOfNumbersGetsFalseColours) {
+    ASSERT_EQ(run("render spheres -o a.exr --layers albedo,depth,normal" + smallMapped).exitCode, 0);
+    ASSERT_EQ(run("render spheres -o albedo.pfm --integrator albedo" + smallMapped).exitCode, 0);
+    ASSERT_EQ(run("tonemap albedo.pfm albedo.png --exposure 1").exitCode, 0);
+    ASSERT_EQ(run("tonemap a.exr b.png --layer albedo --exposure 1").exitCode, 0);
+    EXPECT_EQ(readImage(folder / "b.png").image.pixels(), readImage(folder / "albedo.png").image.pixels());
+    for (const std::string layer : {"depth", "Z", "samples"}) {
+        const Outcome outcome = run("tonemap a.exr " + layer + ".png --layer " + layer);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome;
+        const InputFile file(folder / "a.exr");
+        std::vector<float> numbers;
+        const Image values = readExr(file, layer);
+        for (const glm::vec3 &pixel : values.pixels())
+            numbers.push_back(pixel.x);
+        const Drawing wanted = falseColours(24, 18, numbers, layer);
+        const Image drawn = readImage(folder / (layer + ".png")).image;
+        ASSERT_EQ(drawn.width(), wanted.width);
+        ASSERT_EQ(drawn.height(), wanted.height);
+        for (std::size_t i = 0; i < wanted.rgb.size(); ++i)
+            ASSERT_EQ(std::lround(drawn.pixels()[i / 3][static_cast<int>(i % 3)] * 255.0f), wanted.rgb[i]);
+    }
+    ASSERT_EQ(run("tonemap a.exr normal.png --layer normal").exitCode, 0);
+    EXPECT_EQ(readImage(folder / "normal.png").image.height(), 18) << "three values: no legend";
+    expectFailure("tonemap a.exr b.png --layer heat", 3, {"heat", "albedo"});
+    expectFailure("tonemap a.exr b.png --layer samples --tone agx", 2, {"--tone", "samples"});
+    expectFailure("tonemap a.exr b.png --layer samples --exposure 1", 2, {"--exposure", "samples"});
+    expectFailure("tonemap albedo.pfm b.png --layer samples", 3, {"albedo.pfm", "no layers"});
 }
 
 TEST_F(ToneMapping, WhatCannotBeMappedIsRefused) {
