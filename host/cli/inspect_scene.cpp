@@ -118,9 +118,13 @@ void printShapes(const SceneSummary &summary) {
         text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", name, count);
     if (!text.empty())
         printResult("shapes       {}\n", text);
-    if (summary.instanceCount > 0)
-        printResult("instances    {} of {}\n", countText(summary.instanceCount, "place"),
-                    countText(summary.prototypeCount, "mesh", "meshes"));
+    const auto &[instanceCount, prototypeCount, flattenedCount] = summary.arrangement;
+    if (instanceCount > 0)
+        printResult("instances    {} of {}: {} flattened, to meshes of their own\n",
+                    countText(instanceCount, "place"), countText(prototypeCount, "mesh", "meshes"),
+                    flattenedCount == instanceCount ? "all"
+                    : flattenedCount == 0           ? "none"
+                                                    : fmt::to_string(flattenedCount));
 }
 
 std::string quoted(const std::string &name) {

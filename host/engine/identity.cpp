@@ -30,8 +30,8 @@ RenderIdentity identityOf(const PreparedScene &scene, const Backend &backend,
     }
     const RenderSettings &settings = scene.loaded.settings;
     if (settings.integrator == Integrator::Cost) // a picture of the tree
-        identity.emplace_back("tree",
-                              fmt::format("{}, leaf size {}", nameOf(settings.tree), settings.leafSize));
+        identity.emplace_back("tree", fmt::format("{}, leaf size {}, {} instances", nameOf(settings.tree),
+                                                  settings.leafSize, scene.packed.instances.size()));
     if (layers != nullptr) {
         std::vector<std::string_view> names;
         for (const Integrator layer : *layers)

@@ -8,7 +8,7 @@
 #include "host/import/neutral_environment.h"
 #include "host/scene/contacts.h"
 #include "host/scene/framing.h"
-#include "host/scene/instances.h"
+#include "host/scene/geometry_hash.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
@@ -78,6 +78,19 @@ void overrideSettings(const SceneOptions &options, RenderSettings &settings) {
         settings.samplesPerPixel = samplesForNoise; // the scene's own number is for renders without a noise
     for (const SettingChange &change : options.settings)
         change.apply(settings);
+}
+
+/// Throws for options that exclude each other.
+Flattening flatteningOf(const SceneOptions &options, const RenderSettings &settings) {
+    if (options.keepsInstances && options.isFlattened)
+        throw OverrideError("keep-instances", "found beside flatten; allowed: one of the two");
+    if (options.keepsInstances && settings.tree == TreeKind::None)
+        throw OverrideError("keep-instances",
+                            "found without a tree, where triangles are tested one by one, in one space; "
+                            "allowed: with a tree");
+    if (options.isFlattened || settings.tree == TreeKind::None)
+        return Flattening::All;
+    return options.keepsInstances ? Flattening::Needed : Flattening::Fitting;
 }
 
 /// Throws for an option that has no effect with these settings.
@@ -373,14 +386,14 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     if (const std::optional<std::string> dark = diagnoseLight(scene, settings.integrator))
         observer.advice(*dark);
     const Clock::time_point loaded = Clock::now();
-    // Without a tree all triangles are tested one by one, and have to be in one space.
-    const bool isFlattened = options.isFlattened || settings.tree == TreeKind::None;
-    arrangeInstances(scene, isFlattened ? Flattening::All : Flattening::Useful);
+    const std::uint64_t geometry = geometryHash(scene);
+    prepared.arrangement = arrangeInstances(scene, flatteningOf(options, settings));
     partContacts(scene);
     prepared.bvh = buildBvh(settings.tree, scene, settings.leafSize);
     warnOfOverlaps(prepared.bvh, observer);
     prepared.views = viewsOf(options, prepared.loaded);
-    prepared.packed = packScene(scene, prepared.bvh, {.lightChoice = settings.lightChoice});
+    prepared.packed =
+        packScene(scene, prepared.bvh, {.lightChoice = settings.lightChoice, .geometry = geometry});
     prepared.arraysHash = prepared.packed.arraysHash();
     if (source == Source::Dropped) {
         dropSource(scene);
@@ -412,7 +425,8 @@ bool isOtherView(const PreparedScene &prepared, const SceneOptions &options, con
     return hasSameTree && hasSameLoad && hasSameFrame &&
            isSame(&SceneOptions::scene, &SceneOptions::document, &SceneOptions::background,
                   &SceneOptions::environment, &SceneOptions::environmentScale,
-                  &SceneOptions::environmentRotateDegrees, &SceneOptions::isFlattened);
+                  &SceneOptions::environmentRotateDegrees, &SceneOptions::isFlattened,
+                  &SceneOptions::keepsInstances);
 }
 
 void changeView(PreparedScene &prepared, const SceneOptions &options) {

@@ -9,6 +9,7 @@
 #include "host/import/scene_document.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
+#include "host/scene/instances.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/settings_table.h"
 
@@ -39,8 +40,9 @@ struct SceneOptions {
     std::optional<double> environmentScale;
     std::optional<double> environmentRotateDegrees;
     std::vector<int> crop;
-    LoadOptions load;         ///< its events are set by prepareScene
-    bool isFlattened = false; ///< instances become meshes
+    LoadOptions load;            ///< its events are set by prepareScene
+    bool isFlattened = false;    ///< all instances become meshes, whatever memory they take
+    bool keepsInstances = false; ///< none do, but those that have to; without either, those that fit
 };
 
 /// An override that conflicts with the scene or with another one. `name` is that of the override: "crop", "look-at".
@@ -59,7 +61,8 @@ enum class Source { Kept, Dropped };
 /// A scene ready for both renderers.
 struct PreparedScene {
     LoadedScene loaded; ///< its scene without meshes, but those of glass, if the source was dropped
-    Bvh bvh;            ///< empty if the source was dropped
+    Arrangement arrangement;
+    Bvh bvh; ///< empty if the source was dropped
     PackedScene packed;
     std::uint64_t arraysHash = 0; ///< of `packed`
     Crop crop;

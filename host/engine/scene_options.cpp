@@ -64,7 +64,9 @@ constexpr auto table = std::to_array<SceneOption>({
     {"time", viewGroup, "NUMBER", Number{ofLoad<&LoadOptions::timeSeconds>, limits::timeSeconds},
      "glTF: seconds into its animations; without it, the pose of rest"},
     {"flatten", tracingGroup, "", FlagOption{of<&SceneOptions::isFlattened>},
-     "make every instance a mesh of its own: the same picture, with more memory"},
+     "make every instance a mesh of its own, not only those for which there is memory: the same picture"},
+    {"keep-instances", tracingGroup, "", FlagOption{of<&SceneOptions::keepsInstances>},
+     "keep each mesh once, however many places it has: the same picture, slower, with less memory"},
 });
 
 struct Axis {

@@ -126,8 +126,7 @@ SceneSummary summariseScene(const PreparedScene &prepared) {
     addLight(scene, summary);
     addMaterials(scene, summary);
     addShapes(scene, summary);
-    summary.instanceCount = scene.instances.size();
-    summary.prototypeCount = scene.prototypes.size();
+    summary.arrangement = prepared.arrangement;
     summary.outline = loaded.outline;
     summary.meshes = loaded.meshReports;
     summary.settings = loaded.settings;

@@ -61,8 +61,7 @@ struct SceneSummary {
     glm::vec3 background{0.0f}; ///< without an environment
     std::vector<MaterialSummary> materials;
     std::vector<std::pair<std::string_view, std::size_t>> shapes; ///< type and number, by type
-    std::size_t instanceCount = 0;                                ///< of meshes that are stored once
-    std::size_t prototypeCount = 0;                               ///< those meshes
+    Arrangement arrangement;                                      ///< of instances
     std::optional<GltfOutline> outline;
     std::vector<NodeSummary> nodes;
     std::vector<MeshReport> meshes;

@@ -191,9 +191,13 @@ OrderedJson summaryToJson(const SceneSummary &summary, const std::string &comman
     json["scene"] = summary.file;
     json["sceneHash"] = hashText(summary.contentHash);
     json["inputFiles"] = summary.inputFiles;
-    json["contents"] = {{"triangles", summary.triangleCount},   {"meshes", summary.meshes.size()},
-                        {"instances", summary.instanceCount},   {"instancedMeshes", summary.prototypeCount},
-                        {"spheres", summary.sphereCount},       {"lights", summary.lights.size()},
+    json["contents"] = {{"triangles", summary.triangleCount},
+                        {"meshes", summary.meshes.size()},
+                        {"instances", summary.arrangement.instanceCount},
+                        {"instancedMeshes", summary.arrangement.prototypeCount},
+                        {"flattenedInstances", summary.arrangement.flattenedCount},
+                        {"spheres", summary.sphereCount},
+                        {"lights", summary.lights.size()},
                         {"materials", summary.materials.size()}};
     json["bounds"] = boundsToJson(summary.bounds);
     if (summary.origin != glm::dvec3(0.0))

@@ -13,7 +13,7 @@
 namespace hyalite::core {
 
 /// Of the document. A new key leaves it; one that changes or goes raises it.
-inline constexpr int inspectVersion = 1;
+inline constexpr int inspectVersion = 2;
 
 /// With what was measured beside it.
 [[nodiscard]] nlohmann::ordered_json sceneToJson(const SceneSummary &summary,

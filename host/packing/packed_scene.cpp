@@ -13,6 +13,7 @@
 #include "host/packing/sheen_energy.h"
 #include "host/packing/surface_features.h"
 #include "host/packing/texture_rows.h"
+#include "host/scene/geometry_hash.h"
 #include "host/scene/light_groups.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,9 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -337,18 +340,39 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
     seen.environmentTexels = 0; // this and the next depend on how emitters are chosen
     seen.environmentProbability = 0.0f;
     seen.filterTexels = seen.environmentGroup = 0;
+    seen.triangleCount = 0; // this and the next depend on which instances became meshes
+    seen.boundsLower = seen.boundsUpper = glm::vec3(0.0f);
     const std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)), ofArrays);
     return hashBytes(std::as_bytes(std::span(&camera, 1)), hash);
 }
 
 std::uint64_t PackedScene::arraysHash() const {
+    // Texture rows are counted from the first one after those of triangles, which depend on the instances, too.
+    const std::size_t firstRow =
+        texturing != 0 ? layout::firstCoordinateRow + layout::rowsPerTriangle(texturing) * triangles.size()
+                       : textures.size();
+    std::vector<layout::TextureRow> seenTextures(textures.begin() + static_cast<std::ptrdiff_t>(firstRow),
+                                                 textures.end());
     std::vector<layout::MaterialRecord> seenMaterials = materials;
-    for (layout::MaterialRecord &material : seenMaterials)
+    for (layout::MaterialRecord &material : seenMaterials) {
         material.emitterPdf = 0.0f, material.number = material.lightGroup = 0; // likewise, and on names
+        if (material.textures == 0)
+            continue;
+        material.textures -= static_cast<std::uint32_t>(firstRow);
+        const auto records =
+            std::span(seenTextures)
+                .subspan(material.textures, std::size_t{layout::rowsPerTexture} * layout::textureSlotCount);
+        for (std::size_t i = 0; i < records.size(); i += layout::rowsPerTexture) {
+            layout::TextureRecord record;
+            std::memcpy(&record, &records[i], sizeof(record));
+            record.firstRow -= record.size != 0 ? static_cast<std::uint32_t>(firstRow) : 0u;
+            std::memcpy(&records[i], &record, sizeof(record));
+        }
+    }
     std::vector<layout::SphereRecord> seenSpheres = spheres;
     for (layout::SphereRecord &sphere : seenSpheres)
         sphere.emitter = sphere.primitiveId = 0;
-    std::uint64_t hash = hashBytes(std::as_bytes(std::span(seenSpheres)));
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(seenSpheres)), geometry);
     hash = hashBytes(std::as_bytes(std::span(lights)), hash);
     hash = hashBytes(std::as_bytes(std::span(seenMaterials)), hash);
     if ((lighting & layout::lightsByEnvironment) != 0)
@@ -356,36 +380,7 @@ std::uint64_t PackedScene::arraysHash() const {
             hashBytes(std::as_bytes(std::span(lookups).subspan(
                           frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
                       hash);
-    const std::size_t rowsEach = layout::rowsPerTriangle(texturing);
-    const std::size_t texelBegin = layout::firstCoordinateRow + rowsEach * triangles.size();
-    if (texturing != 0)
-        hash = hashBytes(std::as_bytes(std::span(textures).subspan(texelBegin)), hash);
-    // The order of triangles depends on the tree, but a sum of hashes does not; each hash includes the triangle's id.
-    std::uint64_t sum = 0;
-    const auto triangleTotal = static_cast<std::int64_t>(triangles.size());
-#pragma omp parallel for schedule(static) reduction(+ : sum) if (triangleTotal > 8192)
-    for (std::int64_t index = 0; index < triangleTotal; ++index) {
-        const auto i = static_cast<std::size_t>(index);
-        struct {
-            layout::TriangleRecord triangle;
-            layout::NormalRecord normals;
-        } seenTriangle{triangles[i], normals[i]};
-        seenTriangle.triangle.flags &= ((1u << layout::triangleEmitterShift) - 1) & ~layout::triangleEndsLeaf;
-        std::uint64_t triangleHash = hashBytes(std::as_bytes(std::span(&seenTriangle, 1)));
-        if (texturing != 0)
-            triangleHash = hashBytes(std::as_bytes(std::span(textures).subspan(
-                                         layout::firstCoordinateRow + rowsEach * i, rowsEach)),
-                                     triangleHash);
-        sum += triangleHash;
-    }
-    hash = hashBytes(std::as_bytes(std::span(&sum, 1)), hash);
-    std::uint64_t instanceSum = 0;
-    for (const layout::InstanceRecord &instance : instances) {
-        layout::InstanceRecord seenInstance = instance;
-        seenInstance.root = 0;
-        instanceSum += hashBytes(std::as_bytes(std::span(&seenInstance, 1)));
-    }
-    return instances.empty() ? hash : hashBytes(std::as_bytes(std::span(&instanceSum, 1)), hash);
+    return hashBytes(std::as_bytes(std::span(seenTextures)), hash);
 }
 
 std::uint64_t PackedScene::namesHash() const {
@@ -440,6 +435,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     assert(bvh.order.size() <= triangleCount(scene) + bvh.spheres.size() + scene.instances.size());
     PackedScene packed;
     packed.serial = nextSerial();
+    packed.geometry = options.geometry ? *options.geometry : geometryHash(scene);
     packed.frame = packFrame(scene);
     packed.hasTriangles = !bvh.order.empty();
     if (!bvh.spheres.empty())

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,6 +47,7 @@ struct PackedScene {
     /// Given by packScene, and no other time to another scene: scenes of one serial number differ at most in `frame`
     /// and `camera`, so that a device that holds one holds the others. 0: unknown.
     std::uint64_t serial = 0;
+    std::uint64_t geometry = 0;          ///< geometryHash() of the scene before its instances were arranged
     layout::FrameRecord frame{};         ///< without what the settings of a render decide: frameOf() adds it
     UnsetVector<layout::NodePair> nodes; ///< never empty
     /// The scene's own tree, then those of the prototypes. The triangle records are in the same order.
@@ -95,11 +97,12 @@ struct PackedScene {
     [[nodiscard]] std::size_t sizeBytes() const;
 
     /// Hash of the visible scene: camera and image size, background, lights, materials and primitives. It does not
-    /// depend on the tree, the seed or the maximum depth, and is the same on every machine. `ofArrays` is arraysHash().
+    /// depend on the tree, on which instances became meshes, the seed or the maximum depth, and is the same on every
+    /// machine. `ofArrays` is arraysHash().
     [[nodiscard]] std::uint64_t contentHash(std::uint64_t ofArrays) const;
     [[nodiscard]] std::uint64_t contentHash() const { return contentHash(arraysHash()); }
 
-    /// Of all but `frame`, `camera`, names and their numbers: what scenes of one serial number have in common.
+    /// Of all but `frame`, `camera`, names and their numbers: of what scenes of one serial number have in common.
     [[nodiscard]] std::uint64_t arraysHash() const;
 
     /// Of names and their numbers.
@@ -125,6 +128,7 @@ struct PackOptions {
     /// 8-bit textures are decoded to floats if all of them then take at most so many bytes: a lookup reads 4 rows in
     /// place of 16.
     std::size_t maxDecoded = maxDecodedBytes;
+    std::optional<std::uint64_t> geometry{}; ///< PackedScene::geometry; without it, the scene's as it is
 };
 
 /// `scene` is valid, and `bvh` was built from its triangles.

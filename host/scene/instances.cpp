@@ -51,18 +51,19 @@ bool isNearlyFlat(const Placement &placement) {
     return std::abs(determinant(placement)) < 1e-18 * largest * largest * largest;
 }
 
+constexpr std::uint64_t bytesPerTriangle = 300; // as a mesh, in the build and packed
+
 /// Throws Error{LimitExceeded} if so many triangles cannot be stored.
 void requireRoomFor(std::uint64_t flattenedTriangles) {
     if (flattenedTriangles > limits::triangleCount)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("without instances the scene has {} triangles; at most {} can be stored",
                                 flattenedTriangles, limits::triangleCount));
-    constexpr std::uint64_t bytesEach = 300; // as a mesh, in the build and packed
     const std::optional<std::uint64_t> available = availableHostBytes();
-    if (available && flattenedTriangles * bytesEach > *available)
+    if (available && flattenedTriangles * bytesPerTriangle > *available)
         throw Error(ErrorKind::LimitExceeded,
                     fmt::format("without instances the scene takes about {} of memory, and {} are available",
-                                sizeText(flattenedTriangles * bytesEach), sizeText(*available)));
+                                sizeText(flattenedTriangles * bytesPerTriangle), sizeText(*available)));
 }
 
 TriangleMesh flattened(const TriangleMesh &prototype, const Placement &placement) {
@@ -89,6 +90,31 @@ void keepUsedPrototypes(Scene &scene) {
         instance.prototype = index;
     }
     scene.prototypes = std::move(kept);
+}
+
+/// Marks prototypes, those with the fewest triangles more first, while all triangles have room.
+void flattenFitting(const Scene &scene, std::span<const std::size_t> useCounts,
+                    std::vector<bool> &isFlattened) {
+    std::uint64_t room = fittingTriangles;
+    if (const std::optional<std::uint64_t> available = availableHostBytes())
+        room =
+            std::min(room, *available / 4 / bytesPerTriangle); // most is left to films, and to other programs
+    std::uint64_t count = triangleCount(scene);
+    std::vector<std::pair<std::uint64_t, std::size_t>> others; // triangles more, prototype
+    for (std::size_t i = 0; i < scene.prototypes.size(); ++i) {
+        const std::uint64_t more = useCounts[i] * scene.prototypes[i].triangles.size();
+        if (isFlattened[i])
+            count += more;
+        else if (useCounts[i] > 0)
+            others.emplace_back(more, i);
+    }
+    std::ranges::sort(others);
+    for (const auto &[more, prototype] : others) {
+        count += more;
+        if (count > room)
+            return;
+        isFlattened[prototype] = true;
+    }
 }
 
 } // namespace
@@ -178,9 +204,9 @@ glm::dvec3 placedExtent(const Placement &placement, const glm::dvec3 &size) {
     return extent;
 }
 
-void arrangeInstances(Scene &scene, Flattening flattening) {
+Arrangement arrangeInstances(Scene &scene, Flattening flattening) {
     if (scene.instances.empty() && scene.prototypes.empty())
-        return;
+        return {};
     std::vector<std::size_t> useCounts(scene.prototypes.size(), 0);
     for (const Instance &instance : scene.instances)
         ++useCounts[instance.prototype];
@@ -188,12 +214,17 @@ void arrangeInstances(Scene &scene, Flattening flattening) {
     for (std::size_t i = 0; i < scene.prototypes.size(); ++i)
         isFlattened.push_back(flattening == Flattening::All || useCounts[i] == 1 ||
                               emitsLight(scene.prototypes[i], scene.materials));
+    if (flattening == Flattening::Fitting)
+        flattenFitting(scene, useCounts, isFlattened);
 
-    const auto becomesMesh = [&](const Instance &instance) {
-        return isFlattened[instance.prototype] || isNearlyFlat(instance.toWorld);
-    };
     const std::vector<Instance> instances = scene.instances;
-    flattenInstances(scene, [&](std::size_t i) { return becomesMesh(instances[i]); });
+    flattenInstances(scene, [&](std::size_t i) {
+        return isFlattened[instances[i].prototype] || isNearlyFlat(instances[i].toWorld);
+    });
+    return {instances.size(),
+            static_cast<std::size_t>(
+                std::ranges::count_if(useCounts, [](std::size_t count) { return count > 0; })),
+            instances.size() - scene.instances.size()};
 }
 
 void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &becomesMesh) {

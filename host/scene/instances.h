@@ -50,15 +50,29 @@ void addInstances(Scene &scene, TriangleMesh mesh, std::span<const Placement> pl
 /// The instances that become meshes.
 enum class Flattening {
     All,
-    /// Lights; those whose prototype has one instance, which are faster as meshes; and those whose maps nearly make
-    /// everything flat, for which bounds on rounding are not proven.
-    Useful
+    /// Lights; those whose prototype has one instance; and those whose maps nearly make everything flat, for which bounds
+    /// on rounding are not proven.
+    Needed,
+    /// These, and of the others as many as there is memory for: rays are faster in one tree. Those with the fewest
+    /// triangles more come first.
+    Fitting
+};
+
+/// Triangles that a scene has at most after Flattening::Fitting: those that take no longer to build than they spare.
+inline constexpr std::uint64_t fittingTriangles = 4'000'000;
+
+/// What became of the instances.
+struct Arrangement {
+    std::size_t instanceCount = 0;  ///< before
+    std::size_t prototypeCount = 0; ///< that they use
+    std::size_t flattenedCount = 0; ///< that became meshes
+
+    bool operator==(const Arrangement &) const = default;
 };
 
 /// Replaces instances by meshes in their place of the order, and drops prototypes that are not used any more. No pixel
-/// changes. The scene is valid. Throws Error{LimitExceeded} if
-/// the meshes are too large.
-void arrangeInstances(Scene &scene, Flattening flattening);
+/// changes. The scene is valid. Throws Error{LimitExceeded} if the meshes are too large.
+Arrangement arrangeInstances(Scene &scene, Flattening flattening);
 
 /// The same for the instances, by their indices, that `becomesMesh` names.
 void flattenInstances(Scene &scene, const std::function<bool(std::size_t)> &becomesMesh);

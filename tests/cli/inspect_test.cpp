@@ -183,7 +183,7 @@ TEST_F(InspectCommand, JsonSaysWhatTheTextSays) {
   "meshes": [ { "file": "sheet.obj", "material": "paper" } ],
   "shapes": [ { "type": "quad", "material": "lamp", "transform": [ { "translate": [0, 5, 0] } ] } ] })");
     const nlohmann::json json = nlohmann::json::parse(inspect("parts.json --json --rays 20"));
-    EXPECT_EQ(json.at("inspectVersion"), 1);
+    EXPECT_EQ(json.at("inspectVersion"), 2);
     EXPECT_TRUE(contains(json.at("program"), "hyalite "));
     EXPECT_TRUE(contains(json.at("commandLine"), "inspect parts.json --json"));
     EXPECT_EQ(json.at("inputFiles"), (std::vector<std::string>{"parts.json", "sheet.obj"}));

@@ -108,6 +108,23 @@ TEST(OtherViews, AreAsIfPreparedAnew) {
     }
 }
 
+TEST(SceneOptions, InstancesAreTheSameSceneAsMeshesAreAndSayWhatTheyBecame) {
+    const auto preparedWith = [](const Options &options) {
+        return prepareScene(optionsOf("tea-table", options), Source::Dropped, nobody());
+    };
+    const PreparedScene kept = preparedWith({{"keep-instances", true}});
+    EXPECT_GT(kept.packed.instances.size(), 0u);
+    EXPECT_EQ(kept.arrangement.instanceCount, kept.packed.instances.size() + kept.arrangement.flattenedCount);
+    for (const Options &options : {Options{}, Options{{"flatten", true}}}) {
+        const PreparedScene flattened = preparedWith(options);
+        EXPECT_EQ(flattened.packed.instances.size(), 0u);
+        EXPECT_EQ(flattened.arrangement.flattenedCount, kept.arrangement.instanceCount);
+        EXPECT_EQ(flattened.contentHash(), kept.contentHash()) << "checkpoints and parts fit";
+    }
+    EXPECT_THROW((void)preparedWith({{"keep-instances", true}, {"flatten", true}}), OverrideError);
+    EXPECT_THROW((void)preparedWith({{"keep-instances", true}, {"bvh", std::string("none")}}), OverrideError);
+}
+
 TEST(OtherViews, AreNotWhatIsPackedAnew) {
     const SceneOptions options = optionsOf("cornell", {});
     const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
@@ -117,6 +134,7 @@ TEST(OtherViews, AreNotWhatIsPackedAnew) {
                                                      {{"integrator", std::string("whitted")}},
                                                      {{"background", std::vector{1.0, 1.0, 1.0}}},
                                                      {{"environment", std::string("neutral")}},
+                                                     {{"keep-instances", true}},
                                                      {{"flatten", true}}})
         EXPECT_FALSE(isOtherView(scene, options, optionsOf("cornell", other))) << other.front().first;
     EXPECT_FALSE(isOtherView(scene, options, optionsOf("metals", {})));

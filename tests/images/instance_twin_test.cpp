@@ -149,7 +149,7 @@ TEST(InstanceTwins, AgreeWithMeshesThatAreLights) {
     TestScene scene = crowd(6);
     scene.settings.integrator = Integrator::Path;
     scene.materials[0].emission = {2.0f, 1.5f, 1.0f};
-    arrangeInstances(scene, Flattening::Useful);
+    arrangeInstances(scene, Flattening::Needed);
     EXPECT_FALSE(scene.instances.empty()); // those without emission
     expectOnePicture(scene, 0);
     TestScene other = crowd(6);

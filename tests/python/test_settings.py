@@ -21,7 +21,7 @@ CHOICES = {
     "integrator": ["whitted", "path", "path", "normal", "albedo", "ao", "depth"], "max_depth": [1, 3, 5],
     "bvh": ["midpoint", "sah"], "leaf_size": [1, 4], "environment": ["neutral", SKY],
     "environment_rotate": [90], "background": [(0.5, 0.25, 0.125)], "exposure": [-1, 2],
-    "filter": ["box", "blackman-harris"], "sampler": ["sobol", "centre"], "flatten": [True],
+    "filter": ["box", "blackman-harris"], "sampler": ["sobol", "centre"], "flatten": [True], "keep_instances": [True],
     "light_choice": ["power", "tree"], "clamp": [2], "ao_distance": [0.5],
 }
 ALWAYS = {"width", "height", "spp"}  # small pictures

@@ -133,6 +133,7 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     SceneOptions options;
     options.scene = file.string();
     options.isFlattened = way.isFlattened;
+    options.keepsInstances = !way.isFlattened;
     PreparedScene prepared = prepareScene(options, Source::Kept, nobody());
     const RenderSettings &settings = prepared.loaded.settings;
     const Crop &crop = prepared.crop;

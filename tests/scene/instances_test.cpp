@@ -38,12 +38,12 @@ TEST(InputOrder, CountsInstancesAsMeshes) {
 }
 
 TEST(InputOrder, StaysWhereInstancesBecomeMeshes) {
-    Scene useful = fiveMeshes();
-    arrangeInstances(useful, Flattening::Useful);
-    EXPECT_EQ(useful.meshes.size(), 3u); // with the mesh that has one place
-    EXPECT_EQ(useful.instances.size(), 2u);
-    EXPECT_EQ(inputOrder(useful).meshes, (std::vector<std::uint32_t>{0, 28, 32}));
-    EXPECT_EQ(inputOrder(useful).instances, (std::vector<std::uint32_t>{4, 16}));
+    Scene needed = fiveMeshes();
+    arrangeInstances(needed, Flattening::Needed);
+    EXPECT_EQ(needed.meshes.size(), 3u); // with the mesh that has one place
+    EXPECT_EQ(needed.instances.size(), 2u);
+    EXPECT_EQ(inputOrder(needed).meshes, (std::vector<std::uint32_t>{0, 28, 32}));
+    EXPECT_EQ(inputOrder(needed).instances, (std::vector<std::uint32_t>{4, 16}));
 
     Scene all = fiveMeshes();
     arrangeInstances(all, Flattening::All);
@@ -51,14 +51,14 @@ TEST(InputOrder, StaysWhereInstancesBecomeMeshes) {
     EXPECT_TRUE(all.instances.empty() && all.prototypes.empty());
     EXPECT_EQ(inputOrder(all).meshes, (std::vector<std::uint32_t>{0, 4, 16, 28, 32}));
     EXPECT_EQ(all.meshes[2].positions[0].x, testing::gridCube(1).positions[0].x + 20.0f);
-    arrangeInstances(useful, Flattening::All);
-    EXPECT_EQ(useful.meshes.size(), 5u);
+    arrangeInstances(needed, Flattening::All);
+    EXPECT_EQ(needed.meshes.size(), 5u);
 }
 
 TEST(Instances, ThatEmitLightBecomeMeshes) {
     Scene scene = fiveMeshes();
     scene.materials[0].emission = glm::vec3(1.0f);
-    arrangeInstances(scene, Flattening::Useful);
+    arrangeInstances(scene, Flattening::Needed);
     EXPECT_TRUE(scene.instances.empty());
 }
 
@@ -67,7 +67,7 @@ TEST(Instances, ThatAreNearlyFlatBecomeMeshes) {
     Placement flat = movedBy(1.0f);
     flat.rows[0].x = 1e-20f;
     addInstances(scene, testing::gridCube(1), std::array{movedBy(2.0f), flat, movedBy(3.0f)});
-    arrangeInstances(scene, Flattening::Useful);
+    arrangeInstances(scene, Flattening::Needed);
     EXPECT_EQ(scene.instances.size(), 2u);
     EXPECT_EQ(scene.meshes.size(), 2u);
 }
@@ -96,12 +96,27 @@ TEST(Instances, KeepTheirOutsideWhereTheyAreMirrored) {
     }
 }
 
+TEST(Instances, BecomeMeshesWhileThereIsRoom) {
+    Scene scene = fiveMeshes();
+    addInstances(scene, testing::icosphere(4),
+                 std::vector<Placement>(2000, movedBy(1.0f))); // 10 million triangles
+    addInstances(scene, testing::icosphere(1), std::vector<Placement>(3, movedBy(2.0f)));
+    const Arrangement needed{2 + 1 + 2000 + 3, 4, 1};
+    Scene kept = scene;
+    EXPECT_EQ(arrangeInstances(kept, Flattening::Needed), needed);
+    const Arrangement fitting{2 + 1 + 2000 + 3, 4, 2 + 1 + 3};
+    EXPECT_EQ(arrangeInstances(scene, Flattening::Fitting), fitting);
+    EXPECT_EQ(scene.instances.size(), 2000u);
+    EXPECT_EQ(scene.prototypes.size(), 1u);
+    EXPECT_EQ(inputOrder(scene).triangleCount, inputOrder(kept).triangleCount);
+}
+
 TEST(Instances, AreRefusedAsMeshesWhereThereAreTooMany) {
     Scene scene;
     scene.materials.push_back({});
     addInstances(scene, testing::icosphere(4), std::vector<Placement>(300'000, movedBy(1.0f)));
     EXPECT_THROW(arrangeInstances(scene, Flattening::All), Error);
-    EXPECT_NO_THROW(arrangeInstances(scene, Flattening::Useful));
+    EXPECT_NO_THROW(arrangeInstances(scene, Flattening::Needed));
 }
 
 } // namespace
