@@ -82,7 +82,7 @@ show_progress() {
     done
 }
 
-# $1: ON or OFF, whether tests are built; then more options for CMake. Builds $target, in $build. Twelve sources are
+# $1: ON or OFF, whether tests are built; then more options for CMake. Builds $target, in $build. Up to 24 sources are
 # compiled as one, which takes half the time, and is no help to who edits one of them. The build's output is shown only if
 # it fails.
 build_all() {
@@ -93,7 +93,7 @@ build_all() {
     progress=$!
     trap "kill $progress 2>/dev/null" EXIT
     if ! { cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DHYALITE_TESTS="$tests" \
-                 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+                 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
                  -DPython_EXECUTABLE=/usr/bin/python3 \
                  ${HYALITE_WARNINGS_AS_ERRORS:+-DHYALITE_WARNINGS_AS_ERRORS="$HYALITE_WARNINGS_AS_ERRORS"} "$@" &&
            cmake --build "$build" --target "$target" --parallel "$(nproc)"; } >"$log" 2>&1; then

@@ -23,7 +23,7 @@ namespace hyalite::core {
 namespace {
 
 /// A bound that the user set on a metric.
-struct Gate {
+struct ErrorGate {
     std::string option;
     double limit = 0.0;
     double value = 0.0;
@@ -64,8 +64,8 @@ Inputs readInputs(const DiffOptions &options) {
     return inputs;
 }
 
-std::vector<Gate> applyGates(const DiffOptions &options, const ImageComparison &comparison) {
-    std::vector<Gate> gates;
+std::vector<ErrorGate> applyGates(const DiffOptions &options, const ImageComparison &comparison) {
+    std::vector<ErrorGate> gates;
     // NaN fails both kinds of gates.
     const auto atLeast = [&](const char *option, const std::optional<double> &limit, double value) {
         if (limit)
@@ -147,8 +147,8 @@ void printTable(const DiffOptions &options, const Inputs &inputs, const ImageCom
         printAlpha(options, *comparison.alpha, inputs.reference.image.width(), pixels.pixelCount);
 }
 
-void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
-    for (const Gate &gate : gates)
+void printVerdict(const std::vector<ErrorGate> &gates, bool isPassed) {
+    for (const ErrorGate &gate : gates)
         printResult("{:<15}{:g}: {}, {:.6g}\n", gate.option, gate.limit, gate.isPassed ? "passed" : "FAILED",
                     gate.value);
     if (gates.empty())
@@ -158,7 +158,8 @@ void printVerdict(const std::vector<Gate> &gates, bool isPassed) {
 }
 
 std::string formatReport(const DiffOptions &options, const std::string &commandLine, const Inputs &inputs,
-                         const ImageComparison &comparison, const std::vector<Gate> &gates, bool isPassed) {
+                         const ImageComparison &comparison, const std::vector<ErrorGate> &gates,
+                         bool isPassed) {
     nlohmann::ordered_json report = programToJson(commandLine);
     report["reference"] = options.reference;
     report["test"] = options.test;
@@ -169,7 +170,7 @@ std::string formatReport(const DiffOptions &options, const std::string &commandL
     report["outlierThreshold"] = options.outlierThreshold;
     report.update(comparisonToJson(comparison, inputs.reference.composite(), inputs.test.composite()));
     report["gates"] = nlohmann::ordered_json::array();
-    for (const Gate &gate : gates)
+    for (const ErrorGate &gate : gates)
         report["gates"].push_back({{"option", gate.option},
                                    {"limit", gate.limit},
                                    {"value", gate.value},
@@ -197,9 +198,9 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     const Inputs inputs = readInputs(options);
     const ImageComparison comparison =
         compareImages(inputs.reference, inputs.test, options.outlierThreshold, inputs.mask);
-    const std::vector<Gate> gates = applyGates(options, comparison);
+    const std::vector<ErrorGate> gates = applyGates(options, comparison);
     bool isPassed = !gates.empty() || comparison.identical();
-    for (const Gate &gate : gates)
+    for (const ErrorGate &gate : gates)
         isPassed = isPassed && gate.isPassed;
 
     if (heatMapFile) {

@@ -91,7 +91,8 @@ struct RayTracer::State {
         constants[layout::constantIsAnyHit] = goal == RayGoal::AnyHit;
         std::array<const Buffer *, layout::rayBindingCount> bound{};
         bound.fill(&unused);
-        std::ranges::transform(scene.buffers.buffers, bound.begin(), [](const Buffer &one) { return &one; });
+        std::ranges::transform(scene.buffers.buffers, bound.begin(),
+                               [](const Buffer &each) { return &each; });
         bound[layout::bindingStacks] = &stacks;
         bound[layout::bindingRays] = &rays;
         bound[layout::bindingHits] = &hits;

@@ -50,7 +50,7 @@ std::array<const T *, layout::bindingCount> byBinding(const Scene &scene, const 
                                                       const T &progress, const T &paths, const T &pending,
                                                       const T &stacks, const T &trace) {
     std::array<const T *, layout::bindingCount> all{};
-    std::ranges::transform(scene, all.begin(), [](const T &one) { return &one; });
+    std::ranges::transform(scene, all.begin(), [](const T &each) { return &each; });
     all[layout::bindingFilm] = &film;
     all[layout::bindingLight] = &light;
     all[layout::bindingProgress] = &progress;

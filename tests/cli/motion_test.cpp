@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 24;
 constexpr int height = 15; // the middle row looks along the horizon
-const std::string small = " --motion --width 24 --height 15 --spp 1 --device cpu --quiet";
+const std::string smallMoving = " --motion --width 24 --height 15 --spp 1 --device cpu --quiet";
 
 /// Pixels in the unit of the tangent, for a field of view of 60 degrees.
 const double focal = width / (2.0 * std::tan(std::numbers::pi / 6.0));
@@ -62,7 +62,7 @@ std::string wallScene(const std::string &keys) {
 // What the camera passes goes the other way; at the ends of its path the camera stands still.
 TEST_F(Motion, OfACameraThatMovesAside) {
     store("aside.json", wallScene(R"({"frame": 0}, {"frame": 4, "position": [2, -1, 10]})"));
-    ASSERT_EQ(run("render aside.json --frames 0..5 -o f.#.exr" + small).exitCode, 0);
+    ASSERT_EQ(run("render aside.json --frames 0..5 -o f.#.exr" + smallMoving).exitCode, 0);
     const double right = 0.5 * focal / 10.0;
     const double down = 0.25 * focal / 10.0;
     expectVectors("f.2.exr", [&](double, double) { return std::array{right, -down, right, -down}; });
@@ -80,7 +80,7 @@ TEST_F(Motion, OfACameraThatPans) {
     store("pan.json", wallScene(R"({"frame": 0, "direction": )" + towards(-a) + R"(}, {"frame": 1},
                                    {"frame": 2, "direction": )" +
                                 towards(a) + "}"));
-    ASSERT_EQ(run("render pan.json --frames 1 -o p.#.exr" + small).exitCode, 0);
+    ASSERT_EQ(run("render pan.json --frames 1 -o p.#.exr" + smallMoving).exitCode, 0);
     expectVectors(
         "p.1.exr",
         [&](double u, double v) {
@@ -150,8 +150,9 @@ TEST_F(Motion, OfANodeAndOfAMorph) {
     store("morph.glb", morph.glb());
     const double right = 0.75 * focal / 10.0;
     for (const std::string scene : {"node", "morph"}) {
-        ASSERT_EQ(
-            run("render " + scene + ".glb --frames 0..4 --fps 4 -o " + scene + ".#.exr" + small).exitCode, 0);
+        ASSERT_EQ(run("render " + scene + ".glb --frames 0..4 --fps 4 -o " + scene + ".#.exr" + smallMoving)
+                      .exitCode,
+                  0);
         expectVectors(scene + ".2.exr", [&](double, double) { return std::array{-right, 0.0, -right, 0.0}; });
         expectVectors(scene + ".0.exr", [&](double, double) { return std::array{0.0, 0.0, -right, 0.0}; });
         expectVectors(scene + ".4.exr", [&](double, double) { return std::array{-right, 0.0, 0.0, 0.0}; });

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 
 using OutputFiles = CommandLine;
 
-struct Case {
+struct OutputCase {
     std::string line; ///< a command that writes `file`, and nothing larger than the limit before
     std::string file;
 };
 
 const std::string tiny = " --width 1 --height 1 --spp 1 --device cpu";
 
-std::vector<Case> allFiles() {
+std::vector<OutputCase> allFiles() {
     const std::string profile =
         "profile spheres --width 16 --height 16 --spp 1 --repeat 1 --warmup 0 --quiet";
     const std::string render = "render spheres --width 64 --height 64 --spp 1 --device cpu";
@@ -65,7 +65,7 @@ TEST_F(EachFile, StaysAsItWasOnAFullDisk) {
     full.environment = {{"HYALITE_FAKES", "unlimited-memory-files"}, {"HYALITE_VALIDATION", "0"}};
     for (const auto &[name, value] : layerEnvironment)
         full.environment[name] = value;
-    for (const Case &each : allFiles()) {
+    for (const OutputCase &each : allFiles()) {
         // A checkpoint replaces nothing else.
         const std::string old = each.file == "r.checkpoint" ? "hyalite checkpoint\n" : "old";
         store(each.file, old);
@@ -83,7 +83,7 @@ TEST_F(EachFile, StaysAsItWasOnAFullDisk) {
 }
 
 TEST_F(EachFile, IsRefusedBeforeAnyWorkWhereItsFolderIsMissing) {
-    for (const Case &each : allFiles()) {
+    for (const OutputCase &each : allFiles()) {
         std::string line = each.line;
         line.insert(line.rfind(" " + each.file) + 1, "missing/");
         const std::set<std::string> before = entries();

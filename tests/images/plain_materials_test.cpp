@@ -37,7 +37,7 @@ Look metal(const std::string &name, std::size_t index, float roughness) {
     return made;
 }
 
-Look glass(const std::string &name, float index, float roughness) {
+Look glassLook(const std::string &name, float index, float roughness) {
     Look made = look(name, MaterialKind::Dielectric, roughness);
     made.material.refractiveIndex = index;
     made.material.absorption = {0.05f, 0.15f, 0.3f};
@@ -89,9 +89,9 @@ std::vector<Look> looks() {
     all.push_back(metal("PolishedGold", 2, 0.15f));
     all.push_back(metal("RoughCopper", 1, 0.5f));
     all.push_back(metal("MattAluminium", 0, 1.0f));
-    all.push_back(glass("ClearGlass", 1.5f, 0.0f));
-    all.push_back(glass("FrostedGlass", 1.5f, 0.3f));
-    all.push_back(glass("RoughDenseGlass", 2.2f, 0.7f));
+    all.push_back(glassLook("ClearGlass", 1.5f, 0.0f));
+    all.push_back(glassLook("FrostedGlass", 1.5f, 0.3f));
+    all.push_back(glassLook("RoughDenseGlass", 2.2f, 0.7f));
     all.back().pathCount = 160'000;
     all.push_back(principled("GlossyPlastic", 0.2f));
     all.push_back(principled("RoughPlastic", 0.7f));

@@ -14,7 +14,7 @@ namespace {
 using testing::addBall;
 using testing::expectPlainRadiance;
 
-Material glass(float index, const glm::vec3 &absorption, int priority = 0, float roughness = 0.0f) {
+Material glassOf(float index, const glm::vec3 &absorption, int priority = 0, float roughness = 0.0f) {
     Material material;
     material.kind = MaterialKind::Dielectric;
     material.refractiveIndex = index;
@@ -34,29 +34,29 @@ TestScene studio(int maxDepth) {
 
 TEST(PlainGlass, IsTheSameInALiquid) {
     TestScene scene = studio(7);
-    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.33f, {0.1f, 0.2f, 0.4f}));
-    addBall(scene, {0.1, -0.1, 0.3}, 0.6, glass(1.8f, {0.5f, 0.2f, 0.1f}, 1));
+    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glassOf(1.33f, {0.1f, 0.2f, 0.4f}));
+    addBall(scene, {0.1, -0.1, 0.3}, 0.6, glassOf(1.8f, {0.5f, 0.2f, 0.1f}, 1));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameWhereItOverlaps) {
     TestScene scene = studio(7);
-    addBall(scene, {-0.4, 0.0, 0.0}, 0.7, glass(1.3f, {0.6f, 0.1f, 0.1f}, 1));
-    addBall(scene, {0.4, 0.1, 0.0}, 0.7, glass(2.0f, {0.1f, 0.3f, 0.9f}, 2));
-    addBall(scene, {0.0, -0.3, 0.2}, 0.5, glass(1.6f, {0.1f, 0.9f, 0.1f}, 1));
+    addBall(scene, {-0.4, 0.0, 0.0}, 0.7, glassOf(1.3f, {0.6f, 0.1f, 0.1f}, 1));
+    addBall(scene, {0.4, 0.1, 0.0}, 0.7, glassOf(2.0f, {0.1f, 0.3f, 0.9f}, 2));
+    addBall(scene, {0.0, -0.3, 0.2}, 0.5, glassOf(1.6f, {0.1f, 0.9f, 0.1f}, 1));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameAroundABallOfAir) {
     TestScene scene = studio(8);
-    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.5f, {0.2f, 0.3f, 0.4f}));
-    addBall(scene, {0.0, 0.1, 0.0}, 0.7, glass(1.0f, glm::vec3(0.0f), 1));
+    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glassOf(1.5f, {0.2f, 0.3f, 0.4f}));
+    addBall(scene, {0.0, 0.1, 0.0}, 0.7, glassOf(1.0f, glm::vec3(0.0f), 1));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameWhereItIsHollow) {
     TestScene scene = studio(8);
-    const Material clear = glass(1.5f, {0.2f, 0.3f, 0.4f});
+    const Material clear = glassOf(1.5f, {0.2f, 0.3f, 0.4f});
     addBall(scene, {0.0, 0.0, 0.0}, 1.0, clear);
     addBall(scene, {0.0, 0.1, 0.0}, 0.7, clear, true);
     scene.spheres.back().materialIndex = scene.spheres.front().materialIndex;
@@ -67,14 +67,14 @@ TEST(PlainGlass, IsTheSameAroundTheEye) {
     TestScene scene = studio(6);
     scene.camera.position = {0.3, 0.2, 0.4};
     scene.camera.horizontalFovDegrees = 100.0;
-    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.5f, {0.2f, 0.3f, 0.4f}));
+    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glassOf(1.5f, {0.2f, 0.3f, 0.4f}));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
 TEST(PlainGlass, IsTheSameWhereRoughIsInSmooth) {
     TestScene scene = studio(6);
-    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glass(1.4f, {0.1f, 0.2f, 0.4f}));
-    addBall(scene, {0.1, -0.1, 0.3}, 0.6, glass(1.9f, {0.3f, 0.2f, 0.1f}, 1, 0.5f));
+    addBall(scene, {0.0, 0.0, 0.0}, 1.0, glassOf(1.4f, {0.1f, 0.2f, 0.4f}));
+    addBall(scene, {0.1, -0.1, 0.3}, 0.6, glassOf(1.9f, {0.3f, 0.2f, 0.1f}, 1, 0.5f));
     expectPlainRadiance(scene, wholeAndParts);
 }
 
@@ -154,7 +154,7 @@ TEST(PlainLongPaths, AreTheSame) {
     scene.camera.horizontalFovDegrees = 40.0;
     testing::addQuad(scene, {-3.0f, -0.6f, 3.0f}, {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f},
                      testing::diffuse({0.8f, 0.6f, 0.4f}));
-    addBall(scene, {-0.7, 0.0, 0.0}, 0.6, glass(1.5f, {0.2f, 0.3f, 0.4f}));
+    addBall(scene, {-0.7, 0.0, 0.0}, 0.6, glassOf(1.5f, {0.2f, 0.3f, 0.4f}));
     Material metal;
     metal.kind = MaterialKind::Conductor;
     metal.roughness = 0.3f;

@@ -14,24 +14,26 @@ namespace {
 using hyalite::core::testing::Random;
 using hyalite::core::testing::Tally;
 
-struct Case {
+struct TreeCase {
     const char *name;
     double minRadius;
     double greatestRadius;
     glm::dvec3 offset; ///< of all that is in a cube of edge 2
 
-    friend std::ostream &operator<<(std::ostream &stream, const Case &each) { return stream << each.name; }
+    friend std::ostream &operator<<(std::ostream &stream, const TreeCase &each) {
+        return stream << each.name;
+    }
 };
 
-constexpr std::array cases{
-    Case{"alike", 0.05, 0.1, glm::dvec3(0.0)},
-    Case{"of every size", 1e-6, 10.0, glm::dvec3(0.0)},
-    Case{"smaller than a unit of rounding", 1e-3, 1e-2, glm::dvec3(1e6, -1e6, 1e6)},
-    Case{"overlapping", 0.5, 1.0, glm::dvec3(1e3, 0.0, 0.0)},
+constexpr std::array treeCases{
+    TreeCase{"alike", 0.05, 0.1, glm::dvec3(0.0)},
+    TreeCase{"of every size", 1e-6, 10.0, glm::dvec3(0.0)},
+    TreeCase{"smaller than a unit of rounding", 1e-3, 1e-2, glm::dvec3(1e6, -1e6, 1e6)},
+    TreeCase{"overlapping", 0.5, 1.0, glm::dvec3(1e3, 0.0, 0.0)},
 };
 
 /// Spheres of the case, some twice, around a few triangles.
-Scene sceneOf(const Case &each, Random &random) {
+Scene sceneOf(const TreeCase &each, Random &random) {
     Scene scene;
     scene.materials.resize(2);
     scene.materials[1].kind = MaterialKind::Dielectric;
@@ -86,18 +88,18 @@ Hit<float> hitByLoop(const PackedScene &scene, const Ray<float> &ray) {
     return nearest;
 }
 
-struct NameOf {
-    std::string operator()(const ::testing::TestParamInfo<Case> &info) const {
+struct TreeCaseName {
+    std::string operator()(const ::testing::TestParamInfo<TreeCase> &info) const {
         std::string name = info.param.name;
         std::ranges::replace(name, ' ', '_');
         return name;
     }
 };
 
-class TreeSpheres : public ::testing::TestWithParam<Case> {};
+class TreeSpheres : public ::testing::TestWithParam<TreeCase> {};
 
 TEST_P(TreeSpheres, AreHitAsByALoop) {
-    const Case each = GetParam();
+    const TreeCase each = GetParam();
     Random random(811);
     Tally different(fmt::format("other hits on spheres {}", each.name), random.seed());
     std::size_t hitCount = 0;
@@ -125,7 +127,7 @@ TEST_P(TreeSpheres, AreHitAsByALoop) {
 // The box leaves hits alone: they are those of the sphere by itself, which sphere_test.cpp compares with the closed
 // form.
 TEST_P(TreeSpheres, AreHitWhereTheyAre) {
-    const Case each = GetParam();
+    const TreeCase each = GetParam();
     Random random(812);
     Tally moved(fmt::format("moved hits on spheres {}", each.name), random.seed());
     const Scene scene = sceneOf(each, random);
@@ -148,7 +150,7 @@ TEST_P(TreeSpheres, AreHitWhereTheyAre) {
     moved.expectNone();
 }
 
-INSTANTIATE_TEST_SUITE_P(Spheres, TreeSpheres, ::testing::ValuesIn(cases), NameOf());
+INSTANTIATE_TEST_SUITE_P(Spheres, TreeSpheres, ::testing::ValuesIn(treeCases), TreeCaseName());
 
 } // namespace
 } // namespace hyalite::core::reference

@@ -559,15 +559,15 @@ TEST(ClosestHit, AnEmptySceneIsNeverHit) {
 
 // ---- One triangle
 
-struct Shot {
+struct TriangleShot {
     glm::vec3 corners[3];
     glm::vec3 origin;
     glm::vec3 direction;
     BoxRay<float> boxRay;
     TriangleHit<float> hit;
 
-    Shot(const glm::vec3 &a, const glm::vec3 &b, const glm::vec3 &c, const glm::vec3 &from,
-         const glm::vec3 &to)
+    TriangleShot(const glm::vec3 &a, const glm::vec3 &b, const glm::vec3 &c, const glm::vec3 &from,
+                 const glm::vec3 &to)
         : corners{a, b, c}, origin(from), direction(to),
           boxRay(makeBoxRay(from, to, glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))),
           hit(intersectTriangle(makeTriangleRay(from, to), boxRay, a, b, c)) {}
@@ -582,7 +582,8 @@ struct Shot {
 
 TEST(Triangle, IsHitFromBothSidesWithTheWeightsOfItsCorners) {
     for (const float side : {5.0f, -5.0f}) {
-        const Shot shot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 2, side}, {0, 0, side > 0 ? -1.0f : 1.0f});
+        const TriangleShot shot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 2, side},
+                                {0, 0, side > 0 ? -1.0f : 1.0f});
         EXPECT_EQ(shot.hit.distance, 5.0f);
         EXPECT_EQ(shot.hit.u, 0.25f); // of the first corner
         EXPECT_EQ(shot.hit.v, 0.25f); // of the second one
@@ -591,7 +592,7 @@ TEST(Triangle, IsHitFromBothSidesWithTheWeightsOfItsCorners) {
 
 TEST(Triangle, EdgesAndCornersBelongToIt) {
     const auto distanceAt = [](float x, float y) {
-        return Shot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {x, y, 5}, {0, 0, -1}).hit.distance;
+        return TriangleShot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {x, y, 5}, {0, 0, -1}).hit.distance;
     };
     EXPECT_EQ(distanceAt(0, 0), 5.0f);
     EXPECT_EQ(distanceAt(4, 0), 5.0f);
@@ -604,10 +605,10 @@ TEST(Triangle, EdgesAndCornersBelongToIt) {
 }
 
 TEST(Triangle, WithoutAreaIsNeverHit) {
-    EXPECT_EQ(Shot({1, 1, 0}, {1, 1, 0}, {1, 1, 0}, {1, 1, 5}, {0, 0, -1}).hit.distance, 0.0f);
-    EXPECT_EQ(Shot({0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {1, 1, 5}, {0, 0, -1}).hit.distance, 0.0f);
+    EXPECT_EQ(TriangleShot({1, 1, 0}, {1, 1, 0}, {1, 1, 0}, {1, 1, 5}, {0, 0, -1}).hit.distance, 0.0f);
+    EXPECT_EQ(TriangleShot({0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {1, 1, 5}, {0, 0, -1}).hit.distance, 0.0f);
     // Seen from its own plane it has no area either.
-    EXPECT_EQ(Shot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-5, 1, 0}, {1, 0, 0}).hit.distance, 0.0f);
+    EXPECT_EQ(TriangleShot({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-5, 1, 0}, {1, 0, 0}).hit.distance, 0.0f);
 }
 
 TEST(Triangle, BehindTheOriginIsNeverHit) {
@@ -630,11 +631,12 @@ TEST(Triangle, BehindTheOriginIsNeverHit) {
         const double cosine = std::abs(glm::dot(normal, direction));
         if (!(cosine > 0.1))
             continue;
-        const Shot far(a, b, c, glm::vec3(point + direction * (scale * random.logUniform(1e-4, 1e3))),
-                       glm::vec3(direction));
+        const TriangleShot far(a, b, c, glm::vec3(point + direction * (scale * random.logUniform(1e-4, 1e3))),
+                               glm::vec3(direction));
         behind.check(far.hit.distance <= 0, [&] { return far.text(); });
-        const Shot close(a, b, c, glm::vec3(point + direction * (scale * random.logUniform(1e-12, 1e-4))),
-                         glm::vec3(direction));
+        const TriangleShot close(a, b, c,
+                                 glm::vec3(point + direction * (scale * random.logUniform(1e-12, 1e-4))),
+                                 glm::vec3(direction));
         near.check(static_cast<double>(close.hit.distance) <= 2e-5 * scale, [&] { return close.text(); });
     }
     behind.expectNone();
@@ -661,8 +663,8 @@ TEST(Triangle, TheDistanceLiesInTheIntervalOfItsOwnBox) {
         const glm::vec3 origin(offset + random.inCube(scale * random.logUniform(0.5, 100.0)));
         if (glm::dvec3(origin) == target)
             continue;
-        const Shot shot(corners[0], corners[1], corners[2], origin,
-                        glm::vec3(glm::normalize(target - glm::dvec3(origin))));
+        const TriangleShot shot(corners[0], corners[1], corners[2], origin,
+                                glm::vec3(glm::normalize(target - glm::dvec3(origin))));
         if (!(shot.hit.distance > 0))
             continue;
         ++hitCount;
@@ -682,7 +684,7 @@ struct ExactHit {
     long double u;
     long double v;
 
-    explicit ExactHit(const Shot &shot) {
+    explicit ExactHit(const TriangleShot &shot) {
         const LongVec e1 = LongVec(shot.corners[0]) - LongVec(shot.corners[2]);
         const LongVec e2 = LongVec(shot.corners[1]) - LongVec(shot.corners[2]);
         const LongVec d(shot.direction);
@@ -717,7 +719,7 @@ TEST(Triangle, IsAccurateToAFewRoundingsOfItsExtent) {
         const glm::vec3 origin(target + random.direction() * (scale * random.logUniform(1e-2, 1e3)));
         if (glm::dvec3(origin) == target)
             continue;
-        const Shot shot(a, b, c, origin, glm::vec3(glm::normalize(target - glm::dvec3(origin))));
+        const TriangleShot shot(a, b, c, origin, glm::vec3(glm::normalize(target - glm::dvec3(origin))));
         const glm::dvec3 area = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
         const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
         const double height = glm::length(area) / longest;
