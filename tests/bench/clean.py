@@ -10,14 +10,13 @@ FLIP: samples and processor seconds (of all threads, without start, scene and pi
 denoised one, and the share of the latter's seconds. Between two pictures, the logarithms of samples and FLIP are taken for a
 line, as are samples and seconds.
 """
-import argparse
 import math
 import resource
 import sys
 
 try:
     import hyalite
-    from denoise import SCENES, reference
+    from denoise import parsed, reference
 except ImportError as error:
     sys.exit(f"clean.py: {error}: install python3-numpy, build the module, and set PYTHONPATH")
 
@@ -62,16 +61,7 @@ def text(found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE")
-    parser.add_argument("--device", default="auto")
-    parser.add_argument("--references", default=".", metavar="FOLDER")
-    parser.add_argument("--reference-spp", type=int, default=4096)
-    parser.add_argument("--size", default="480x320")
-    parser.add_argument("--flip", default=".08,.05")
-    arguments = parser.parse_args()
-    width, height = map(int, arguments.size.split("x"))
-    size = {"width": width, "height": height, "integrator": "path"}
+    arguments, size = parsed(__doc__, "--flip", ".08,.05")
     wanted = [float(flip) for flip in arguments.flip.split(",")]
     renderer = hyalite.Renderer(device=arguments.device)
     print("| scene | FLIP | noisy | denoised | share |\n|---|---|---|---|---|")

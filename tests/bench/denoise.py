@@ -78,17 +78,22 @@ def reference(scene, arguments, size):
     return hyalite.load_image(path).pixels.astype(float)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def parsed(description, option, default):
+    """The arguments of a script that compares with references, one option of its own among them, and the size."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE")
     parser.add_argument("--device", default="auto")
     parser.add_argument("--references", default=".", metavar="FOLDER")
     parser.add_argument("--reference-spp", type=int, default=4096)
     parser.add_argument("--size", default="480x320")
-    parser.add_argument("--spp", default="4,16,64")
+    parser.add_argument(option, default=default)
     arguments = parser.parse_args()
     width, height = map(int, arguments.size.split("x"))
-    size = {"width": width, "height": height, "integrator": "path"}
+    return arguments, {"width": width, "height": height, "integrator": "path"}
+
+
+def main():
+    arguments, size = parsed(__doc__, "--spp", "4,16,64")
     print("| scene | spp | noisy | denoised | ratio | bilateral | worse squares |\n|---|---|---|---|---|---|---|")
     for scene in arguments.scenes:
         truth = reference(scene, arguments, size)
