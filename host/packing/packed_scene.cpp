@@ -347,26 +347,24 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
 }
 
 std::uint64_t PackedScene::arraysHash() const {
-    // Texture rows are counted from the first one after those of triangles, which depend on the instances, too.
+    // Texture rows are counted from the first one after those of triangles, which depend on the instances, too: first
+    // those of the materials' textures, then their texels.
     const std::size_t firstRow =
         texturing != 0 ? layout::firstCoordinateRow + layout::rowsPerTriangle(texturing) * triangles.size()
                        : textures.size();
-    std::vector<layout::TextureRow> seenTextures(textures.begin() + static_cast<std::ptrdiff_t>(firstRow),
-                                                 textures.end());
+    std::span<const layout::TextureRow> texels = std::span(textures).subspan(firstRow);
+    std::vector<layout::TextureRecord> seenTextures;
     std::vector<layout::MaterialRecord> seenMaterials = materials;
     for (layout::MaterialRecord &material : seenMaterials) {
         material.emitterPdf = 0.0f, material.number = material.lightGroup = 0; // likewise, and on names
         if (material.textures == 0)
             continue;
         material.textures -= static_cast<std::uint32_t>(firstRow);
-        const auto records =
-            std::span(seenTextures)
-                .subspan(material.textures, std::size_t{layout::rowsPerTexture} * layout::textureSlotCount);
-        for (std::size_t i = 0; i < records.size(); i += layout::rowsPerTexture) {
-            layout::TextureRecord record;
-            std::memcpy(&record, &records[i], sizeof(record));
+        for (std::uint32_t slot = 0; slot < layout::textureSlotCount; ++slot) {
+            layout::TextureRecord &record = seenTextures.emplace_back();
+            std::memcpy(&record, texels.data(), sizeof(record));
             record.firstRow -= record.size != 0 ? static_cast<std::uint32_t>(firstRow) : 0u;
-            std::memcpy(&records[i], &record, sizeof(record));
+            texels = texels.subspan(layout::rowsPerTexture);
         }
     }
     std::vector<layout::SphereRecord> seenSpheres = spheres;
@@ -380,7 +378,8 @@ std::uint64_t PackedScene::arraysHash() const {
             hashBytes(std::as_bytes(std::span(lookups).subspan(
                           frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
                       hash);
-    return hashBytes(std::as_bytes(std::span(seenTextures)), hash);
+    hash = hashBytes(std::as_bytes(std::span(seenTextures)), hash);
+    return hashBytes(std::as_bytes(texels), hash);
 }
 
 std::uint64_t PackedScene::namesHash() const {
