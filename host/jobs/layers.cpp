@@ -89,6 +89,8 @@ RenderSettings settingsOf(const PictureView &view, const RenderSettings &ofImage
         samplesOfView(view.view, samplesForViews(ofImage.samplesPerPixel, wantedNoise(ofImage)),
                       settings.areLayersThrough, view.isOfDenoiser);
     settings.noise = 0.0;
+    if (view.isOfDenoiser) // were noise of colours and features one, the denoiser would take it for detail
+        settings.seed ^= 0x9E3779B9u;
     if (isOfCentres(view.view, settings.areLayersThrough))
         settings.sampler = SamplerKind::Centre;
     return settings;

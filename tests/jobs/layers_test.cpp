@@ -1,7 +1,12 @@
 // Films of views as layers of a picture.
 #include "host/jobs/layers.h"
 
+#include "host/engine/open_backends.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <span>
 
 namespace hyalite::core {
 namespace {
@@ -38,6 +43,41 @@ TEST(Layers, NormalsAreSigned) {
     const std::vector<Layer> layers = viewLayers(films);
     EXPECT_EQ(layers[0].channels, "XYZ");
     EXPECT_EQ(rowOf(layers[0], 6), (std::vector{-1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}));
+}
+
+// A blurred background: the layer that looks through has the samples of the picture, the denoiser's albedo its own.
+TEST(Layers, OfTheDenoiserHaveNoNoiseInCommonWithOthers) {
+    constexpr int side = 48;
+    const auto albedoOf = [&](bool isOfDenoiser, std::uint32_t seed, int samplesPerPixel) {
+        SceneOptions options;
+        options.scene = "depth-of-field";
+        options.width = options.height = side;
+        options.settings.push_back({[=](RenderSettings &settings) {
+            settings.samplesPerPixel = samplesPerPixel;
+            settings.seed = seed;
+            settings.areLayersThrough = true;
+        }});
+        const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
+        const PictureView view{Integrator::Albedo, isOfDenoiser};
+        return renderViews(*openBackend("cpu", nobody()), scene, std::span(&view, 1),
+                           std::span(&scene.crop, 1), {}, nobody(), TimeLimit(std::nullopt))[0]
+            .film.toImage();
+    };
+    const Image truth = albedoOf(false, 7, 1024);
+    const Image layer = albedoOf(false, 0, 8);
+    const Image data = albedoOf(true, 0, 8);
+    double ofLayer = 0.0;
+    double ofData = 0.0;
+    double ofBoth = 0.0;
+    for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+        const double a = double{layer.pixels()[i].x} - double{truth.pixels()[i].x};
+        const double b = double{data.pixels()[i].x} - double{truth.pixels()[i].x};
+        ofLayer += a * a;
+        ofData += b * b;
+        ofBoth += a * b;
+    }
+    EXPECT_NEAR(ofData / ofLayer, 1.0, 0.2);
+    EXPECT_NEAR(ofBoth / std::sqrt(ofLayer * ofData), 0.0, 0.1); // 0.02 by chance
 }
 
 } // namespace
