@@ -91,6 +91,28 @@ void add(BackendResult &total, BackendResult &&stage) {
     add(total.shares, std::move(stage.shares));
 }
 
+/// The end of a stage for a pixel that lacks samples: those whose mean is kept, or all.
+std::uint32_t nextCountOf(std::uint32_t count, std::uint32_t target) {
+    for (const std::uint32_t kept : {halfOfFirstCount(target), firstSampleCount(target)})
+        if (count < kept)
+            return kept;
+    return target;
+}
+
+/// The first samples that a pixel has once it gets more; empty: those that it has.
+std::optional<FirstSamples> firstOf(const layout::FilmPixel &pixel, const FirstSamples &known,
+                                    std::uint32_t target) {
+    const std::uint32_t count = pixel.sampleCount;
+    const std::uint32_t halfCount = halfOfFirstCount(target);
+    if (count > 0 && count == firstSampleCount(target))
+        return FirstSamples{{meanOf(pixel), count}, halfCount > 0 ? MeanOfFirst(known) : MeanOfFirst{}};
+    if (count > 0 && count == halfCount)
+        return FirstSamples{{meanOf(pixel), count}};
+    if (halfCount == 0 && known.half.sampleCount > 0)
+        return FirstSamples{MeanOfFirst(known)};
+    return {};
+}
+
 /// A render, stage by stage. In a round, each pixel gets the samples that it is to have.
 class StagedRender {
   public:
@@ -123,9 +145,8 @@ class StagedRender {
         for (std::size_t i = 0; i < total_.film.pixels.size(); ++i) {
             const std::uint32_t count = total_.film.pixels[i].sampleCount;
             const std::uint32_t target = targetOf(total_.film, i, maxSamples_);
-            const std::uint32_t firstCount = firstSampleCount(target);
             if (count < target)
-                end = std::min(end.value_or(target), count < firstCount ? firstCount : target);
+                end = std::min(end.value_or(target), nextCountOf(count, target));
         }
         return end;
     }
@@ -140,8 +161,8 @@ class StagedRender {
                 continue;
             if (pixel.sampleCount >= target)
                 stage.resting.emplace_back(i, std::exchange(pixel.sampleCount, end));
-            else if (pixel.sampleCount > 0 && pixel.sampleCount == firstSampleCount(target))
-                stage.first.emplace_back(i, FirstSamples{meanOf(pixel), pixel.sampleCount});
+            else if (const auto first = firstOf(pixel, total_.film.first[i], target))
+                stage.first.emplace_back(i, *first);
         }
         return stage;
     }

@@ -63,12 +63,11 @@ std::size_t unfinishedPixels(const CheckpointFile &file, const PartOrigin &origi
             origin.layers[layer].view, samplesForViews(static_cast<int>(file.samplesPerPixel), file.noise),
             origin.areLayersThrough, origin.layers[layer].isOfDenoiser));
     };
-    const std::uint32_t firstCount = firstSampleCount(file.samplesPerPixel);
     std::size_t count = 0;
     for (std::size_t i = 0; i < file.film.pixels.size(); ++i) {
-        bool isFinished =
-            file.noise > 0.0 || (file.film.pixels[i].sampleCount == file.samplesPerPixel &&
-                                 (file.film.first.empty() || file.film.first[i].sampleCount == firstCount));
+        bool isFinished = file.noise > 0.0 ||
+                          (file.film.pixels[i].sampleCount == file.samplesPerPixel &&
+                           (file.film.first.empty() || isComplete(file.film.first[i], file.samplesPerPixel)));
         for (std::size_t layer = 0; layer < file.layers.size(); ++layer)
             isFinished = isFinished && file.layers[layer].pixels[i].sampleCount == samplesOfLayer(layer);
         count += !isFinished;

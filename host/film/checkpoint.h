@@ -39,7 +39,7 @@
 namespace hyalite::core {
 
 /// Of checkpoints and parts. Files of another version are refused by name.
-inline constexpr std::uint32_t checkpointVersion = 9;
+inline constexpr std::uint32_t checkpointVersion = 10;
 
 /// Everything that affects the samples of a render, by name. Renders with equal identities may share samples. Names and
 /// values have no line ends, and names have no colons.

@@ -50,15 +50,16 @@ std::vector<Layer> firstSampleLayers(const Film &film) {
                     float *next = row.data();
                     for (const FirstSamples &first : rowOfFirst(y))
                         for (int channel = 0; channel < 3; ++channel)
-                            *next++ = first.mean[channel];
+                            *next++ = first.ofDenoiser().mean[channel];
                 }};
     Layer counts{"denoising_first_samples", "Y", [rowOfFirst](int y, std::span<float> row) {
                      std::ranges::transform(rowOfFirst(y), row.begin(), [](const FirstSamples &first) {
-                         return static_cast<float>(first.sampleCount);
+                         return static_cast<float>(first.ofDenoiser().sampleCount);
                      });
                  }};
     counts.fillWholeRow = [rowOfFirst](int y, std::span<std::uint32_t> row) {
-        std::ranges::transform(rowOfFirst(y), row.begin(), &FirstSamples::sampleCount);
+        std::ranges::transform(rowOfFirst(y), row.begin(),
+                               [](const FirstSamples &first) { return first.ofDenoiser().sampleCount; });
     };
     return {std::move(means), std::move(counts)};
 }

@@ -57,12 +57,19 @@ namespace hyalite::core {
     return glm::max(deviation, glm::dvec3(0.0)) / ((count - 1.0) * count);
 }
 
-/// The mean of a pixel's first samples.
-struct FirstSamples {
+/// The mean of the first samples of a pixel.
+struct MeanOfFirst {
     glm::vec3 mean{0.0f};
     std::uint32_t sampleCount = 0; ///< 0: they are not known
 };
-static_assert(sizeof(FirstSamples) == 16); // as files have them
+
+/// The means of a pixel's first samples (first_samples.h).
+struct FirstSamples : MeanOfFirst {
+    MeanOfFirst half{}; ///< of half as many, while these are nearer to the half of all
+    /// Those that the denoiser takes for one half of all.
+    [[nodiscard]] const MeanOfFirst &ofDenoiser() const { return half.sampleCount > 0 ? half : *this; }
+};
+static_assert(sizeof(FirstSamples) == 32); // as files have them
 
 /// What a film has of some pixels.
 struct FilmRecords {

@@ -17,6 +17,16 @@ namespace hyalite::core {
     return std::bit_floor(samplesPerPixel - 1);
 }
 
+/// Half of them, if a pixel of so many samples keeps these, too: of 17 samples 8 are a better half than 16, which those that
+/// are added later will need. Else 0.
+[[nodiscard]] constexpr std::uint32_t halfOfFirstCount(std::uint32_t samplesPerPixel) {
+    const std::uint32_t firstCount = firstSampleCount(samplesPerPixel);
+    return 2 * std::uint64_t{samplesPerPixel} < 3 * std::uint64_t{firstCount} ? firstCount / 2 : 0;
+}
+
+/// Whether a pixel of so many samples has all means of its first ones.
+[[nodiscard]] bool isComplete(const FirstSamples &first, std::uint32_t samplesPerPixel);
+
 /// Whether all pixels have first samples, and others beside them.
 [[nodiscard]] bool hasFirst(const Film &film);
 

@@ -88,9 +88,10 @@ NoisyPicture noisyPictureOf(const Film &film, const std::vector<ViewFilm> &views
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         layout::NoisyPixel pixel{};
         pixel.colour = meanOf(film.pixels[i]);
+        const MeanOfFirst &first = film.first[i].ofDenoiser();
         pixel.firstShare =
-            static_cast<float>(film.first[i].sampleCount) / static_cast<float>(film.pixels[i].sampleCount);
-        pixel.first = film.first[i].mean;
+            static_cast<float>(first.sampleCount) / static_cast<float>(film.pixels[i].sampleCount);
+        pixel.first = first.mean;
         pixel.variance = glm::vec3(varianceOfMean(film.pixels[i]));
         pixel.albedo = valueInLayer(Integrator::Albedo, albedo.pixels[i]);
         pixel.normal = valueInLayer(Integrator::Normal, normal.pixels[i]);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,19 +69,41 @@ TEST(FirstSamples, AreTheLargestPowerOfTwoBelowAll) {
     EXPECT_EQ(firstSampleCount(65536), 32768u);
 }
 
+TEST(FirstSamples, HaveTheirHalfWhereItIsNearerToTheHalfOfAll) {
+    EXPECT_EQ(halfOfFirstCount(1), 0u);
+    EXPECT_EQ(halfOfFirstCount(3), 0u);
+    EXPECT_EQ(halfOfFirstCount(5), 2u);
+    EXPECT_EQ(halfOfFirstCount(6), 0u);
+    EXPECT_EQ(halfOfFirstCount(16), 0u);
+    EXPECT_EQ(halfOfFirstCount(17), 8u);
+    EXPECT_EQ(halfOfFirstCount(23), 8u);
+    EXPECT_EQ(halfOfFirstCount(24), 0u);
+    for (std::uint32_t all = 2; all < 5000; ++all) {
+        const std::uint32_t half = halfOfFirstCount(all) > 0 ? halfOfFirstCount(all) : firstSampleCount(all);
+        EXPECT_GE(3 * half, all) << all;
+        EXPECT_LE(3 * half, 2 * all) << all;
+    }
+}
+
 TEST(RenderStages, HaveThePixelsOfOneStageAndTheMeansOfTheFirst) {
-    const PreparedScene scene = prepareDenoised(6);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
-    const Film whole = renderedIn(*cpu, scene, false);
     const Image first = renderedIn(*cpu, prepareDenoised(4), false).toImage();
-    EXPECT_TRUE(whole.first.empty());
-    for (const std::unique_ptr<Backend> &backend : backendsOfAllKinds()) {
-        const Film film = renderedIn(*backend, scene, true);
-        EXPECT_EQ(differingSums(film, whole), 0u) << backend->name();
-        ASSERT_TRUE(hasFirst(film)) << backend->name();
-        for (std::size_t i = 0; i < film.first.size(); ++i) {
-            ASSERT_EQ(film.first[i].sampleCount, 4u);
-            ASSERT_EQ(film.first[i].mean, first.pixels()[i]) << backend->name() << ", pixel " << i;
+    const Image half = renderedIn(*cpu, prepareDenoised(2), false).toImage();
+    for (const int samples : {5, 6}) {
+        const PreparedScene scene = prepareDenoised(samples);
+        const Film whole = renderedIn(*cpu, scene, false);
+        EXPECT_TRUE(whole.first.empty());
+        for (const std::unique_ptr<Backend> &backend : backendsOfAllKinds()) {
+            const Film film = renderedIn(*backend, scene, true);
+            EXPECT_EQ(differingSums(film, whole), 0u) << backend->name();
+            ASSERT_TRUE(hasFirst(film)) << backend->name();
+            for (std::size_t i = 0; i < film.first.size(); ++i) {
+                ASSERT_TRUE(isComplete(film.first[i], static_cast<std::uint32_t>(samples))) << i;
+                ASSERT_EQ(film.first[i].mean, first.pixels()[i]) << backend->name() << ", pixel " << i;
+                const bool hasHalf = samples == 5; // 2 are a better half of 5 than 4
+                ASSERT_EQ(film.first[i].half.sampleCount, hasHalf ? 2u : 0u);
+                ASSERT_EQ(film.first[i].ofDenoiser().mean, (hasHalf ? half : first).pixels()[i]) << i;
+            }
         }
     }
 }
@@ -114,36 +137,38 @@ TEST(RenderStages, TellProgressOnce) {
     EXPECT_NEAR(observer.last, 1.0, 1e-9);
 }
 
-// Wherever a checkpoint was taken: in the first stage, between the two, or in the second one.
+// Wherever a checkpoint was taken: in a stage or between two of them.
 TEST(RenderStages, GoOnFromAnyCopyToTheSameBits) {
-    const PreparedScene scene = prepareDenoised(6);
+    const PreparedScene scene = prepareDenoised(5);
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
     FilmCopies copies(151);
     const BackendResult whole =
         renderInStages(*cpu, scene.packed, scene.loaded.settings, Film(scene.crop), {.snapshots = &copies});
-    std::size_t inFirst = 0;
-    std::size_t inSecond = 0;
+    std::array<std::size_t, 3> inStages{};
     for (std::size_t i = 0; i < copies.films.size(); ++i) {
-        const bool isSecond = std::ranges::any_of(copies.films[i].pixels,
-                                                  [](const auto &pixel) { return pixel.sampleCount > 4; });
-        (isSecond ? inSecond : inFirst) += 1;
+        const std::uint32_t most =
+            std::ranges::max(copies.films[i].pixels, {}, &layout::FilmPixel::sampleCount).sampleCount;
+        inStages[most > 4 ? 2 : most > 2 ? 1 : 0] += 1;
         const BackendResult rest =
             renderInStages(*cpu, scene.packed, scene.loaded.settings, copies.films[i], {});
         EXPECT_EQ(differingPixelCount(rest.film, whole.film), 0u) << i;
         EXPECT_EQ(copies.counts[i] + rest.rays, whole.rays) << i;
     }
-    EXPECT_GT(inFirst, 0u);
-    EXPECT_GT(inSecond, 0u);
+    for (const std::size_t count : inStages)
+        EXPECT_GT(count, 0u);
 }
 
 TEST(RenderStages, GoOnWithMoreSamples) {
     const std::unique_ptr<Backend> cpu = openBackend("cpu", nobody());
-    const Film few = renderedIn(*cpu, prepareDenoised(4), true);
-    for (const int more : {5, 8, 11}) {
-        const PreparedScene scene = prepareDenoised(more);
-        EXPECT_EQ(samplesBeyondFirst(few, {&few.crop, 1}, static_cast<std::uint32_t>(more)), 0u);
-        EXPECT_EQ(differingPixelCount(renderedIn(*cpu, scene, true, few), renderedIn(*cpu, scene, true)), 0u)
-            << more;
+    for (const int samples : {4, 5, 6}) {
+        const Film few = renderedIn(*cpu, prepareDenoised(samples), true);
+        for (const int more : {7, 8, 9, 12, 17}) {
+            const PreparedScene scene = prepareDenoised(more);
+            EXPECT_EQ(samplesBeyondFirst(few, {&few.crop, 1}, static_cast<std::uint32_t>(more)), 0u);
+            EXPECT_EQ(differingPixelCount(renderedIn(*cpu, scene, true, few), renderedIn(*cpu, scene, true)),
+                      0u)
+                << samples << ", " << more;
+        }
     }
 }
 
@@ -154,10 +179,13 @@ TEST(RenderStages, WithFewerSamplesLackTheFirst) {
     EXPECT_FALSE(hasFirst(film));
     const std::span<const Crop> all(&film.crop, 1);
     EXPECT_EQ(samplesBeyondFirst(film, all, 64), 0u);
-    EXPECT_EQ(samplesBeyondFirst(film, all, 33), 0u);
+    EXPECT_EQ(samplesBeyondFirst(film, all, 48), 0u);
     EXPECT_EQ(samplesBeyondFirst(film, all, 32), 20u);
     film.first[0].sampleCount = 16;
     EXPECT_EQ(samplesBeyondFirst(film, all, 32), 0u);
+    EXPECT_EQ(samplesBeyondFirst(film, all, 33), 0u);
+    film.first[0].sampleCount = 0; // of 33, the first 16 and 32
+    EXPECT_EQ(samplesBeyondFirst(film, all, 33), 20u);
 }
 
 TEST(RenderStages, ThatAreStoppedLeavePixelsWithoutFirstSamples) {
