@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the time until a picture has little noise with that of Cycles, Blender's path tracer.
+"""Compares the time until a picture is clean with that of Cycles, Blender's path tracer.
 
     tests/bench/cycles.py HYALITE FOLDER [--quick]
 
@@ -13,9 +13,14 @@ the script works: its pictures are small and each is timed once.
    mean of the picture. Samples are doubled until the noise is below 5 %. The last two counts say how many it takes.
 3. User seconds of a process with so many samples, less those of a process with one sample: the median of three turns,
    in which the programs follow each other. Step 2 has run the same commands, so that kernels are in the driver's cache.
+   Between the last two counts, the logarithms of samples and seconds are taken for a line.
+4. The same until the mean HDR-FLIP of a picture, against 1,024 samples of the same program by another seed, is below
+   0.08 and 0.05; beside them Cycles with adaptive samples, by thresholds of noise of 1/1, 1/2, 1/4 ... in place of
+   counts, and ours denoised.
 """
 import collections
 import datetime
+import functools
 import json
 import math
 import os
@@ -34,7 +39,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 CORNELL = os.path.join(HERE, "..", "..", "assets", "scenes", "cornell.json")
 NOISE = 0.05  # standard deviation of a pixel, of the mean of all
 NOISIEST = 0.001  # share of the pixels that is left out
+FLIPS = (0.08, 0.05)
 MAX_SAMPLES = 4096
+TRUE_SAMPLES = 1024
 MEANS_AGREE, REGIONS_AGREE = 0.01, 0.02  # relative
 
 Scene = collections.namedtuple("Scene", "name path unit_metres width height")
@@ -93,14 +100,18 @@ def write_metals(folder):
 
 
 class Program:
-    """`files` begins the names of its files. `command` takes a scene, a picture, a count of samples and a seed."""
+    """`files` begins the names of its files. `command` takes a scene, a picture, a count of samples and a seed. `plain`
+    is the program whose pictures of many samples this one's become."""
 
-    def __init__(self, name, files, command):
-        self.name, self.files, self.command = name, files, command
+    def __init__(self, name, files, command, plain=None):
+        self.name, self.files, self.command, self.plain = name, files, command, plain or self
+
+    def stem(self, scene):
+        return "%s-%s" % (self.files, scene.name)
 
     def render(self, scene, spp, seed):
         """The picture, and the user seconds of the process."""
-        stem = "%s-%s" % (self.files, scene.name)
+        stem = self.stem(scene)
         command = self.command(scene, stem + ".pfm", str(spp), str(seed))
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         with open(stem + ".log", "w") as log:
@@ -118,15 +129,27 @@ class Program:
         kept = variances[:len(variances) - math.ceil(NOISIEST * len(variances))]
         return math.sqrt(kept.mean()) / ((a.mean() + b.mean()) / 2)
 
-    def samples_needed(self, scene):
-        """The count at which the noise is as wanted, and the power of two above. Noise falls like a power of the
-        count between the two last, whatever its exponent."""
-        spp, noise, last = 2, self.noise(scene, 2), self.noise(scene, 1)
-        while noise > NOISE:
+    def keep_truth(self, scene):
+        self.render(scene, TRUE_SAMPLES, 99)
+        os.replace(self.stem(scene) + ".pfm", self.stem(scene) + "-true.pfm")
+
+    def flip(self, hyalite, scene, spp):
+        self.render(scene, spp, 1)
+        report = self.stem(scene) + "-flip.json"
+        subprocess.run([hyalite, "diff", self.plain.stem(scene) + "-true.pfm", self.stem(scene) + ".pfm", "--report",
+                        report], stdout=subprocess.DEVNULL)
+        with open(report) as file:
+            return json.load(file)["flip"]["mean"]
+
+    def samples_needed(self, scene, error_of, wanted):
+        """The count at which error_of(scene, count) is as wanted, and the power of two above. It falls like a power of
+        the count between the two last, whatever its exponent."""
+        spp, error, last = 4, error_of(scene, 4), error_of(scene, 2)
+        while error > wanted:
             if spp >= MAX_SAMPLES:
-                fail("%s has noise of %.3f in %s at %d samples" % (self.name, noise, scene.name, spp))
-            spp, noise, last = 2 * spp, self.noise(scene, 2 * spp), noise
-        return spp * (noise / NOISE) ** (1 / math.log2(last / noise)), spp
+                fail("%s has an error of %.3f in %s at %d samples" % (self.name, error, scene.name, spp))
+            spp, error, last = 2 * spp, error_of(scene, 2 * spp), error
+        return spp * (error / wanted) ** (1 / math.log2(last / error)), spp
 
 
 def regions(picture):
@@ -144,20 +167,22 @@ def match(scene, cycles, hyalite, spp):
                                               100 * abs(shares - 1).max(), 100 * REGIONS_AGREE))
 
 
-def race(scene, programs, turns):
-    """Prints a row a program. The others are compared with the first."""
-    needed = {program: program.samples_needed(scene) for program in programs}
+def race(title, scene, needed, turns):
+    """Prints a row a program of what Program.samples_needed() says. The others are compared with the first."""
+    programs = list(needed)
     starts, seconds = ({program: [] for program in programs} for _ in range(2))
     for _ in range(turns):
         for program, (samples, spp) in needed.items():
-            start, total = (program.render(scene, count, 1)[1] for count in (1, spp))
+            start = program.plain.render(scene, 1, 1)[1]
+            fewer, more = (program.render(scene, count, 1)[1] for count in (spp // 2, spp))
             starts[program].append(start)
-            seconds[program].append((total - start) * samples / (spp - 1))
+            fewer, more = max(fewer - start, 0.01), max(more - start, 0.01)
+            seconds[program].append(more * (more / fewer) ** math.log2(samples / spp))
     first = statistics.median(seconds[programs[0]])
     for program in programs:
         start, own = (statistics.median(of[program]) for of in (starts, seconds))
-        print("| %s | %s | %.0f | %.2f | %.2f | %.2f |" % (
-            scene.name, program.name, needed[program][0], start, own, first / own), flush=True)
+        print("| %s | %s | %s | %.0f | %.2f | %.2f | %.2f |" % (
+            scene.name, title, program.name, needed[program][0], start, own, first / own), flush=True)
 
 
 def print_versions(hyalite):
@@ -190,29 +215,47 @@ def main():
     os.makedirs(folder, exist_ok=True)
     os.environ["MESA_SHADER_CACHE_DIR"] = os.environ["HYALITE_CACHE"] = folder  # no kernels or tunings of other runs
 
-    def run_blender(scene, picture, spp, seed):
-        return ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python",
-                os.path.join(HERE, "cycles_scene.py"), "--", scene.path, str(scene.unit_metres), picture,
-                str(scene.width), str(scene.height), spp, seed]
+    def run_blender(is_adaptive):
+        def command(scene, picture, spp, seed):
+            count, threshold = (str(MAX_SAMPLES), str(1 / int(spp))) if is_adaptive else (spp, "0")
+            return ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "--python",
+                    os.path.join(HERE, "cycles_scene.py"), "--", scene.path, str(scene.unit_metres), picture,
+                    str(scene.width), str(scene.height), count, seed, threshold]
 
-    def run_on(device):
+        return command
+
+    def run_on(device, *options):
         return lambda scene, picture, spp, seed: [
             hyalite, "render", scene.path, "-o", picture, "--device", device, "--width", str(scene.width), "--height",
-            str(scene.height), "--spp", spp, "--seed", seed, "--quiet"]
+            str(scene.height), "--spp", spp, "--seed", seed, "--quiet", *options]
 
-    programs = [Program(name, os.path.join(folder, files), command) for name, files, command in (
-        ("Cycles", "cycles", run_blender), ("Hyalite, lavapipe", "lavapipe", run_on("llvmpipe")),
-        ("Hyalite, CPU twin", "cpu", run_on("cpu")))]
+    def program(name, files, command, plain=None):
+        return Program(name, os.path.join(folder, files), command, plain)
+
+    cycles = program("Cycles", "cycles", run_blender(False))
+    lavapipe = program("Hyalite, lavapipe", "lavapipe", run_on("llvmpipe"))
+    twin = program("Hyalite, CPU twin", "cpu", run_on("cpu"))
+    adaptive = program("Cycles, adaptive", "adaptive", run_blender(True), cycles)
+    denoised = program("Hyalite, lavapipe, denoised", "denoised", run_on("llvmpipe", "--denoise"), lavapipe)
     cornell_size, metals_size = ((96, 96), (128, 80)) if is_quick else ((256, 256), (320, 200))
     scenes = [Scene("cornell", CORNELL, 0.001, *cornell_size), Scene("metals", write_metals(folder), 1, *metals_size)]
+    turns = 1 if is_quick else 3
     print_versions(hyalite)
     print("\n| scene | mean, of Cycles' | of regions |\n|---|---|---|")
     for scene in scenes:
-        match(scene, *programs[:2], 256 if is_quick else 1024)
-    print("\n| scene | program | samples to 5 % | user s with one sample | user s to 5 % | times as fast |")
-    print("|---|---|---|---|---|---|")
+        match(scene, cycles, lavapipe, 256 if is_quick else 1024)
+    print("\n| scene | until | program | samples | user s with one sample | user s more | times as fast |")
+    print("|---|---|---|---|---|---|---|")
     for scene in scenes:
-        race(scene, programs, 1 if is_quick else 3)
+        needed = {each: each.samples_needed(scene, each.noise, NOISE) for each in (cycles, lavapipe, twin)}
+        race("noise 5 %", scene, needed, turns)
+    for scene in scenes:
+        for each in (cycles, lavapipe):
+            each.keep_truth(scene)
+        for flip in FLIPS:
+            needed = {each: each.samples_needed(scene, functools.partial(each.flip, hyalite), flip)
+                      for each in (cycles, adaptive, lavapipe, denoised)}
+            race("FLIP %g" % flip, scene, needed, turns)
 
 
 main()

@@ -1,10 +1,11 @@
 """Renders a scene file of Hyalite by Cycles, inside Blender: cycles.py says what for.
 
-    blender -b --python cycles_scene.py -- SCENE.json UNIT OUT.pfm WIDTH HEIGHT SPP SEED
+    blender -b --python cycles_scene.py -- SCENE.json UNIT OUT.pfm WIDTH HEIGHT SPP SEED THRESHOLD
 
 Knows what the two scenes of cycles.py have: a camera, an environment or darkness, meshes of OBJ files, which may be
 moved, and materials that are diffuse, emit, or are conductors, all of which are white here. UNIT is that of the scene
-in metres: Cycles is less exact on rooms of hundreds of metres. What else decides speed is Blender's default.
+in metres: Cycles is less exact on rooms of hundreds of metres. THRESHOLD is the noise at which Cycles takes no more samples
+of a pixel; 0: each has SPP. What else decides speed is Blender's default.
 """
 import json
 import math
@@ -84,14 +85,16 @@ def set_world(scene, path):
         scene.world.cycles.sample_map_resolution = image.image.size[0]
 
 
-def set_cycles(scene, depth, spp, seed):
-    """No clamping, no denoiser, all samples for each pixel, and a box filter. Hyalite counts all segments of a path,
-    Cycles neither the first nor the one to the light."""
+def set_cycles(scene, depth, spp, seed, threshold):
+    """No clamping, no denoiser, and a box filter. Hyalite counts all segments of a path, Cycles neither the first nor the
+    one to the light."""
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.samples, cycles.seed = spp, seed
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.use_denoising = False
+    cycles.use_adaptive_sampling = threshold > 0
+    cycles.adaptive_threshold = threshold
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = depth - 2
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
     cycles.pixel_filter_type = "BOX"  # one pixel wide
@@ -108,7 +111,7 @@ def write_pfm(exr, path):
 
 
 def main():
-    path, unit, out, *numbers = sys.argv[sys.argv.index("--") + 1:]
+    path, unit, out, *numbers, threshold = sys.argv[sys.argv.index("--") + 1:]
     unit = float(unit)
     width, height, spp, seed = (int(number) for number in numbers)
     folder = os.path.dirname(path)
@@ -121,7 +124,7 @@ def main():
         add_mesh(os.path.join(folder, mesh["file"]), mesh.get("translate", [0, 0, 0]), unit, looks[mesh["material"]])
     set_camera(scene, document["camera"], unit)
     set_world(scene, os.path.join(folder, document["environment"]["file"]) if "environment" in document else None)
-    set_cycles(scene, document["settings"]["maxDepth"], spp, seed)
+    set_cycles(scene, document["settings"]["maxDepth"], spp, seed, float(threshold))
     render = scene.render
     render.resolution_x, render.resolution_y = width, height
     render.image_settings.file_format = "OPEN_EXR"
