@@ -2,7 +2,7 @@
 import re
 import shutil
 
-from conftest import SOURCE, blocks, run
+from conftest import BUILD, SOURCE, blocks, run
 
 EXAMPLES = SOURCE / "assets" / "examples"
 
@@ -74,3 +74,14 @@ def test_the_page_of_the_documents(installed, tmp_path):
     source = tmp_path / "page.cpp"
     source.write_text(blocks("host/api/README.md", "cpp"))
     run(installed.compile(source, tmp_path), cwd=tmp_path, env=installed.environment())
+
+
+def test_uninstall_removes_every_file_and_our_folders(tmp_path):
+    prefix = tmp_path / "prefix"
+    run("cmake", "--install", BUILD, "--prefix", prefix)
+    kept = prefix / "share" / "hyalite" / "mine.json"
+    kept.write_text("{}")
+    run("cmake", "--build", BUILD, "--target", "uninstall")
+    assert [path for path in prefix.rglob("*") if path.is_file()] == [kept]
+    assert [path for path in prefix.rglob("hyalite")] == [kept.parent]
+    kept.unlink()
