@@ -8,6 +8,7 @@
 #include "host/cli/help_formatter.h"
 #include "host/cli/manual.h"
 #include "host/gpu/vk/instance.h"
+#include "host/import/assets.h"
 #include "host/process/process.h"
 
 #include <fmt/format.h>
@@ -174,6 +175,14 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     app.add_flag_callback("--bash-completion",
                           [&app] {
                               fmt::print("{}", bashCompletion(app));
+                              throw CLI::Success();
+                          })
+        ->trigger_on_parse() // before CLI11 from 2.5 on demands a command
+        ->group("");
+    // For that completion.
+    app.add_flag_callback("--scene-names",
+                          [] {
+                              fmt::print("{}\n", fmt::join(availableScenes(), "\n"));
                               throw CLI::Success();
                           })
         ->trigger_on_parse() // before CLI11 from 2.5 on demands a command

@@ -76,8 +76,13 @@ std::string bashCompletion(const CLI::App &app) {
     std::vector<std::string> commands;
     std::string values;
     std::string options;
+    std::vector<std::string> ofScenes; // commands whose argument is a scene
     for (const CLI::App *command : app.get_subcommands({})) {
         commands.push_back(command->get_name());
+        if (std::ranges::any_of(positionalsOf(*command), [](const CLI::Option *positional) {
+                return positionalName(*positional).find("SCENE") != std::string::npos;
+            }))
+            ofScenes.push_back(command->get_name());
         std::vector<std::string> names;
         for (const CLI::Option *option : shownOptions(*command))
             for (const std::string &name : longAndShortNames(*option)) {
@@ -90,22 +95,32 @@ std::string bashCompletion(const CLI::App &app) {
     }
     return fmt::format(R"(# bash completion for hyalite {}, made from its options
 _hyalite() {{
-    local words='' current=${{COMP_WORDS[COMP_CWORD]}} command=${{COMP_WORDS[1]}}
-    case "$command ${{COMP_WORDS[COMP_CWORD - 1]}}" in
+    local words='' files='' current=${{COMP_WORDS[COMP_CWORD]}} command=${{COMP_WORDS[1]}}
+    local previous=${{COMP_WORDS[COMP_CWORD - 1]}}
+    case "$command $previous" in
 {}    *)
         if [ "$COMP_CWORD" -eq 1 ]; then
             words='{} --help --version'
         elif [[ $current == -* ]]; then
             case $command in
 {}            esac
+        elif [[ $previous != -* ]]; then
+            case $command in
+            {})
+                words=$("${{COMP_WORDS[0]}}" --scene-names 2>/dev/null)
+                files=$(compgen -f -- "$current")
+                compopt -o filenames 2>/dev/null
+                ;;
+            esac
         fi
         ;;
     esac
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current"; printf '%s' "$files")
 }}
 complete -o default -F _hyalite hyalite
 )",
-                       HYALITE_VERSION, values, fmt::join(commands, " "), options);
+                       HYALITE_VERSION, values, fmt::join(commands, " "), options,
+                       fmt::join(ofScenes, " | "));
 }
 
 } // namespace hyalite::core

@@ -68,7 +68,9 @@ TEST_F(Manual, BashCompletesCommandsOptionsAndWords) {
     EXPECT_EQ(completed("hyalite ve", 1), "verify\n");
     EXPECT_EQ(completed("hyalite render --checkpoint-", 2), "--checkpoint-interval\n");
     EXPECT_EQ(completed("hyalite render spheres --tone a", 4), "aces agx\n");
-    EXPECT_EQ(completed("hyalite render sphe", 2), "\n") << "files are left to bash";
+    store("sphinx.json", "");
+    EXPECT_EQ(completed(HYALITE_PROGRAM " render sph", 2), "spheres spheres-nested sphinx.json\n");
+    EXPECT_EQ(completed("hyalite diff sphe", 2), "\n") << "files are left to bash";
 }
 
 } // namespace
