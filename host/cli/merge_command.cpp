@@ -14,6 +14,7 @@
 #include "host/import/assets.h"
 #include "host/import/file_access.h"
 #include "host/jobs/denoising.h"
+#include "host/jobs/display.h"
 #include "host/jobs/film_picture.h"
 #include "host/reference/denoise.h"
 #include "host/report/render_report.h"
@@ -42,6 +43,7 @@ struct MergeOptions {
     std::optional<std::uint32_t> auditSeed;
     RendererNames devices{"auto"};
     std::vector<std::filesystem::path> allowedPaths;
+    std::string display;
     bool isQuiet = false;
 };
 
@@ -243,12 +245,17 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     requireFileOptions(options.file, options.output);
     requireDistinctFiles({{"--output", options.output}}, options.parts);
     AtomicFile file(options.output);
+    std::unique_ptr<Display> display;
+    if (!options.display.empty())
+        display = std::make_unique<Display>(options.display, options.output);
     TerminalObserver observer(options.isQuiet);
     Merger merger;
     {
         ObservedTask progress(observer, "merge");
         for (std::size_t i = 0; i < options.parts.size(); ++i) {
             merger.add(options.parts[i]);
+            if (merger.hasParts())
+                showOn(display, observer, [&](Display &viewer) { viewer.update(merger.film()); });
             progress.update(static_cast<double>(i + 1) / static_cast<double>(options.parts.size()));
         }
     }
@@ -265,8 +272,10 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     }); // shadows are in alpha
     if (hasLayers && format != ImageFormat::Exr)
         printMessage("note: {} has no layers: those of the parts are for .exr files\n", options.output);
-    writePicture(file, format, merger, denoisedColours(merger, options, observer), options, commandLine,
-                 observer);
+    const std::optional<Image> clean = denoisedColours(merger, options, observer);
+    if (clean)
+        showOn(display, observer, [&](Display &viewer) { viewer.show(*clean); });
+    writePicture(file, format, merger, clean, options, commandLine, observer);
     if (!options.isQuiet)
         printResult("{}: {}x{}, {} spp, {} of {} parts, made by {}, {}\n", options.output,
                     merger.film().crop.width(), merger.film().crop.height(), samplesText(merger),
@@ -310,6 +319,7 @@ void addMergeCommand(CLI::App &app, CommandContext &context) {
     addPaths(*command, "--allow-path", options->allowedPaths,
              "for --audit: also read this file, or files in this folder; repeatable");
     addFileOptions(*command, options->file);
+    addDisplayOption(*command, options->display);
     command->add_flag("--quiet", options->isQuiet, "print errors, and what differs, only");
     command->callback([options, &context] { context.exitCode = runMerge(*options, context.commandLine); });
 }

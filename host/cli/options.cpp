@@ -165,4 +165,13 @@ void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vect
     }
 }
 
+void addDisplayOption(CLI::App &command, std::string &address) {
+    command
+        .add_option(
+            "--display", address,
+            "show the picture in tev, or a viewer with its protocol, as its tiles finish; the port is 14158 "
+            "unless it is given")
+        ->type_name("HOST[:PORT]");
+}
+
 } // namespace hyalite::core

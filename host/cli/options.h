@@ -160,4 +160,7 @@ struct NamedFile {
 /// Throws Error{Usage} if two outputs are the same file, or if an output would replace an input.
 void requireDistinctFiles(const std::vector<NamedFile> &outputs, const std::vector<std::string> &inputs);
 
+/// Adds --display, the address of a viewer.
+void addDisplayOption(CLI::App &command, std::string &address);
+
 } // namespace hyalite::core

@@ -328,6 +328,9 @@ void requireViewOptions(const RenderRequest &request, const SequenceOptions &seq
 /// All views in one file.
 ExitCode renderViewSheet(const ViewSeries &series, const RenderRequest &request,
                          const std::string &commandLine, RenderSession &session, TerminalObserver &observer) {
+    if (!request.display.empty())
+        throw Error(ErrorKind::Usage,
+                    "--display: found a sheet of views; allowed: views with a picture each");
     AtomicFile file(request.output);
     requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
     session.open();

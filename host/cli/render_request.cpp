@@ -109,6 +109,7 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
                     "command goes on; `hyalite merge` makes the picture of all parts")
         ->type_name("I/N");
     addTimeLimit(command, request.timeLimitSeconds, "stop after this time and write the partial image");
+    addDisplayOption(command, request.display);
     addLongRenderOptions(command, request);
     command.add_flag("--quiet", isQuiet, "print errors and warnings only");
 }

@@ -320,7 +320,20 @@ class PictureRender {
                                  writePicture(partial, film, nullptr); // the last one tells what is lost
                                  partial.commit();
                              }});
+        if (files_.display) {
+            constexpr double secondsBetween = 0.25;
+            files.push_back({secondsBetween,
+                             [this](const Film &film, const RayCounts &) { files_.display->update(film); }});
+        }
         return files;
+    }
+
+    void show(const Film &film, const Image *clean) {
+        showOn(files_.display, session_.observer(), [&](Display &display) {
+            display.update(film);
+            if (clean != nullptr)
+                display.show(*clean);
+        });
     }
 
     /// The checkpoint first: if there is no room for the picture, nothing is lost.
@@ -340,15 +353,18 @@ class PictureRender {
         if (files_.image) {
             if (request_.hasMotion)
                 motion_ = motionVectors(session_.scene(), session_.loadNeighbours());
-            const std::optional<Image> clean = denoisedColours(film, finished);
-            const std::vector<std::string> losses =
-                writePicture(*files_.image, film, clean ? &*clean : nullptr);
+            const std::optional<Image> colours = denoisedColours(film, finished);
+            const Image *clean = colours ? &*colours : nullptr;
+            show(film, clean);
+            const std::vector<std::string> losses = writePicture(*files_.image, film, clean);
             files_.image->commit();
             for (const std::string &loss : losses)
                 session_.observer().warning(fmt::format("{}: {}", request_.output, loss));
-        } else if (report_.finished.isComplete && isStored) {
+        } else {
+            show(film, nullptr);
             std::error_code ignored; // the older generation is of no use to who merges parts
-            std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);
+            if (report_.finished.isComplete && isStored)
+                std::filesystem::remove(olderCheckpoint(request_.checkpoint), ignored);
         }
         report_.writeSeconds = secondsSince(start) - report_.denoiseSeconds;
     }
@@ -388,6 +404,8 @@ PictureFiles openFiles(RenderRequest request) {
         requireWritableCheckpoint(request.checkpoint);
         files.lock = std::make_unique<CheckpointLock>(request.checkpoint);
     }
+    if (!request.display.empty())
+        files.display = std::make_unique<Display>(request.display, request.output);
     files.request = std::move(request);
     return files;
 }
@@ -396,7 +414,8 @@ void requireRoom(const PictureFiles &files, const PreparedScene &scene) {
     const Crop &crop = scene.crop;
     if (formatOf(files.request) == ImageFormat::Png)
         requirePngSize(files.request.output, crop.width(), crop.height());
-    const bool isCopied = !files.request.checkpoint.empty() || files.request.partialSeconds;
+    const bool isCopied =
+        !files.request.checkpoint.empty() || files.request.partialSeconds || files.display != nullptr;
     const unsigned copies = isCopied ? 2 : 1;
     const RenderSettings &settings = scene.loaded.settings;
     requireFilmMemory(crop, copies + static_cast<unsigned>(viewsOf(scene).size()),

@@ -6,6 +6,7 @@
 #include "host/film/checkpoint.h"
 #include "host/film/checkpoint_lock.h"
 #include "host/film/partition.h"
+#include "host/jobs/display.h"
 #include "host/jobs/render_session.h"
 #include "host/report/render_report.h"
 
@@ -24,10 +25,11 @@ struct PictureFiles {
     std::optional<AtomicFile> image; ///< none for a part, nor for what may be the finished frame
     std::optional<AtomicFile> report;
     std::unique_ptr<CheckpointLock> lock; ///< of the checkpoint, if there is one
+    std::unique_ptr<Display> display;     ///< shows the picture, if a viewer is to
     std::chrono::steady_clock::time_point openedAt = std::chrono::steady_clock::now();
 };
 
-/// Throws Error{OutputNotWritten}, and Error{Usage} for a picture of no format.
+/// Throws Error{OutputNotWritten}, also without the viewer, and Error{Usage} for a picture of no format.
 [[nodiscard]] PictureFiles openFiles(RenderRequest request);
 
 /// Throws Error{LimitExceeded} if the films of a picture of the scene do not fit into memory, or not into its format.

@@ -39,6 +39,7 @@ struct RenderRequest {
     std::string view{};                   ///< one of several: its picture says which
     std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
+    std::string display{}; ///< address of a viewer (display.h) that shows the picture; empty: none
 };
 
 class RenderSession {
