@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -251,11 +252,17 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     TerminalObserver observer(options.isQuiet);
     Merger merger;
     {
+        using Clock = std::chrono::steady_clock;
+        Clock::time_point due{};
         ObservedTask progress(observer, "merge");
         for (std::size_t i = 0; i < options.parts.size(); ++i) {
             merger.add(options.parts[i]);
-            if (merger.hasParts())
+            const bool isDue = i + 1 == options.parts.size() || Clock::now() >= due;
+            if (isDue && merger.hasParts()) {
                 showOn(display, observer, [&](Display &viewer) { viewer.update(merger.film()); });
+                due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                         std::chrono::duration<double>(Display::secondsBetween));
+            }
             progress.update(static_cast<double>(i + 1) / static_cast<double>(options.parts.size()));
         }
     }

@@ -8,7 +8,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <span>
+#include <string_view>
 #include <utility>
 
 namespace hyalite::core {
@@ -117,14 +117,12 @@ void Display::sendTile(const Crop &tile, const std::function<glm::vec3(int x, in
 }
 
 void Display::update(const Film &film) {
-    const int width = film.crop.width();
-    connect(width, film.crop.height());
+    connect(film.crop.width(), film.crop.height());
     const auto pixelAt = [&](int x, int y) -> const layout::FilmPixel & {
-        return film.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x)];
+        return rowOf(film, y)[static_cast<std::size_t>(x)];
     };
     std::size_t index = 0;
-    forEachTile(width, film.crop.height(), [&](const Crop &tile) {
+    forEachTile(film.crop.width(), film.crop.height(), [&](const Crop &tile) {
         std::uint64_t count = 0;
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)

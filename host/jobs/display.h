@@ -22,6 +22,9 @@ namespace hyalite::core {
 /// failure, the next one connects again, and sends everything.
 class Display {
   public:
+    /// Between two updates of a picture that is being made: each looks at all of its pixels.
+    static constexpr double secondsBetween = 0.25;
+
     /// `address` as readTcpAddress() takes it; the port may be left out. `name` is that of the image, in place of another of
     /// that name. Throws Error{OutputNotWritten} if nothing listens there, and Error{Usage} for what is no address.
     Display(const std::string &address, std::string name);

@@ -320,11 +320,9 @@ class PictureRender {
                                  writePicture(partial, film, nullptr); // the last one tells what is lost
                                  partial.commit();
                              }});
-        if (files_.display) {
-            constexpr double secondsBetween = 0.25;
-            files.push_back({secondsBetween,
+        if (files_.display)
+            files.push_back({Display::secondsBetween,
                              [this](const Film &film, const RayCounts &) { files_.display->update(film); }});
-        }
         return files;
     }
 
