@@ -27,12 +27,13 @@ std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
     if (!heatMapPng.empty())
         report["heatMap"] = base64(heatMapPng);
     constexpr std::string_view place = R"(id="report">)";
-    constexpr std::size_t begin = profilePage.find(place) + place.size();
-    std::string html(profilePage.substr(0, begin));
+    constexpr std::string_view page = profile_page::profileHtml;
+    constexpr std::size_t begin = page.find(place) + place.size();
+    std::string html(page.substr(0, begin));
     // A "<", which only strings have, could end the element.
     for (const char letter : jsonText(report))
         html += letter == '<' ? "\\u003c" : std::string(1, letter);
-    return html.append(profilePage.substr(begin));
+    return html.append(page.substr(begin));
 }
 
 } // namespace hyalite::core
