@@ -26,6 +26,8 @@ std::size_t hiddenBytes(std::string_view text) {
         return byte(1) < 0xA0 ? 2 : 0; // U+0080 to U+009F
     if (byte(0) == 0xD8)
         return byte(1) == 0x9C ? 2 : 0; // U+061C
+    if (byte(0) == 0xEF)
+        return byte(1) == 0xBF && byte(2) >= 0xBE ? 3 : 0; // U+FFFE, U+FFFF
     if (byte(0) != 0xE2)
         return 0;
     const bool isMark = byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F); // U+200E, U+200F

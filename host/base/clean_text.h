@@ -7,9 +7,9 @@
 
 namespace hyalite::core {
 
-/// Valid UTF-8 without control characters except line feeds, and without characters that change lines or the direction
-/// of text (Unicode Standard Annex 9, section 2), which can make one name look like another. Every other byte or
-/// character becomes U+FFFD.
+/// Valid UTF-8 without control characters except line feeds, without U+FFFE and U+FFFF, which XML forbids, and without
+/// characters that change lines or the direction of text (Unicode Standard Annex 9, section 2), which can make one name
+/// look like another. Every other byte or character becomes U+FFFD.
 [[nodiscard]] std::string cleanText(std::string_view text);
 
 /// An excerpt of a file for a message: clean, on one line, and cut after `maxBytes` with "...".

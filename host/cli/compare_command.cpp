@@ -24,7 +24,7 @@ void addStatisticalOptions(CLI::App &command, CompareOptions &options) {
     addNumber(command, "--against-seed", options.againstSeed, rangeOf(&RenderSettings::seed),
               "seed of the second render of --statistical; default: the first seed plus 1")
         ->needs(statistical);
-    for (const char *option : {"--tolerance", "--max-outliers", "--diff"})
+    for (const char *option : {"--tolerance", "--max-outliers", "--diff", "--html"})
         statistical->excludes(command.get_option(option));
 }
 
@@ -67,6 +67,9 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
     addOutput(*command, "--diff", options->heatMap, "FILE.png",
               "write a heat map of the difference (HDR-FLIP)");
     addOutput(*command, "--report", options->report, "FILE.json", "write all metrics");
+    addOutput(*command, "--html", options->html, "FILE.html",
+              "write a page to look at both images and their difference, in any browser");
+    addOutput(*command, "--junit", options->junit, "FILE.xml", "write the verdict as JUnit XML, for CI");
     command->add_flag("--quiet", options->isQuiet, "print the result only");
     addStatisticalOptions(*command, *options);
     command->callback([options, &context] {

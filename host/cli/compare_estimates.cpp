@@ -1,15 +1,16 @@
-#include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
 #include "host/base/message.h"
 #include "host/cli/compare_options.h"
 #include "host/cli/options.h"
+#include "host/cli/requested_file.h"
 #include "host/cli/statistical.h"
 #include "host/cli/terminal_observer.h"
+#include "host/film/timeline.h"
 #include "host/import/assets.h"
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -28,13 +29,13 @@ std::uint32_t secondSeedOf(const CompareOptions &options, std::uint32_t firstSee
 } // namespace
 
 ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine) {
-    requireDistinctFiles({{"--report", options.report}}, {resolveScene(options.scene.scene).string()});
-    std::optional<AtomicFile> reportFile;
-    if (!options.report.empty())
-        reportFile.emplace(options.report);
+    const std::vector<NamedFile> outputs{{"--report", options.report}, {"--junit", options.junit}};
+    requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
+    RequestedFile reportFile(options.report);
+    RequestedFile junitFile(options.junit);
     TerminalObserver observer(options.isQuiet);
     const PreparedScene scene = prepareScene(options.scene, Source::Dropped, observer);
-    requireDistinctFiles({{"--report", options.report}}, scene.loaded.inputFiles);
+    requireDistinctFiles(outputs, scene.loaded.inputFiles);
     requireFilmMemory(scene.crop, 4); // two films, and two estimates of about the same size
     const std::uint32_t firstSeed = scene.loaded.settings.seed;
     const std::uint32_t secondSeed = secondSeedOf(options, firstSeed);
@@ -43,6 +44,7 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         printRenderers(scene, run);
         printResult("seeds        {} and {}\n", firstSeed, secondSeed);
     }
+    Stopwatch watch;
     const auto estimate = [&](Backend &backend, std::uint32_t seed) {
         RenderSettings settings = scene.loaded.settings;
         settings.seed = seed;
@@ -58,9 +60,10 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         json["seeds"] = {firstSeed, secondSeed};
         json["statistical"] = welchToJson(result, options.welch);
         json["passed"] = result.isPassed();
-        reportFile->write(jsonText(json));
-        reportFile->commit();
+        reportFile.store(jsonText(json));
     }
+    if (junitFile)
+        junitFile.store(comparisonToJunit(run, scene, watch.lap().seconds(), failureOf(result)));
     return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -18,6 +18,8 @@ struct CompareOptions {
     double maxOutliers = 0.0;
     std::string heatMap;
     std::string report;
+    std::string html;
+    std::string junit;
     bool isStatistical = false;
     WelchOptions welch;
     std::optional<std::uint32_t> againstSeed;

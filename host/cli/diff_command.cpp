@@ -29,6 +29,9 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
     addOutput(*command, "--diff", options->heatMap, "FILE.png",
               "write the FLIP error of each pixel as a heat map");
     addOutput(*command, "--report", options->report, "FILE.json", "write all numbers as JSON");
+    addOutput(*command, "--html", options->html, "FILE.html",
+              "write a page to look at both images and their difference, in any browser");
+    addOutput(*command, "--junit", options->junit, "FILE.xml", "write the verdict as JUnit XML, for CI");
 
     constexpr Interval distance{0.0, 1e38};
     addNumber(*command, "--threshold", options->outlierThreshold, distance,
@@ -41,8 +44,8 @@ void addDiffCommand(CLI::App &app, CommandContext &context) {
               "gate: maximum difference of a channel, also of alpha");
     addNumber(*command, "--max-outliers", options->maxOutliers, limits::fraction,
               "gate: maximum fraction of outliers, from 0 to 1");
-    for (const char *option : {"--mask", "--diff", "--threshold", "--min-psnr", "--min-ssim", "--max-flip",
-                               "--max-diff", "--max-outliers"})
+    for (const char *option : {"--mask", "--diff", "--html", "--threshold", "--min-psnr", "--min-ssim",
+                               "--max-flip", "--max-diff", "--max-outliers"})
         statistical->excludes(command->get_option(option));
     command->callback([options, &context] {
         const auto run = options->isStatistical ? runStatisticalDiff : runDiff;

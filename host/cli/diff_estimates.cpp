@@ -1,13 +1,15 @@
-#include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
 #include "host/cli/diff_options.h"
 #include "host/cli/options.h"
+#include "host/cli/requested_file.h"
 #include "host/cli/statistical.h"
+#include "host/film/timeline.h"
+#include "host/report/junit.h"
 #include "host/report/provenance.h"
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -19,11 +21,18 @@ void requireSameSize(const Image &a, const std::string &pathA, const Image &b, c
                         pathA, a.width(), a.height(), pathB, b.width(), b.height()));
 }
 
+std::string diffToJunit(const DiffOptions &options, double seconds, const std::string &failure) {
+    const std::vector<TestSuite> suites{
+        {"hyalite diff", {{options.reference, options.test, seconds, failure}}}};
+    return junitText("hyalite diff", suites);
+}
+
 ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &commandLine) {
-    requireDistinctFiles({{"--report", options.report}}, {options.reference, options.test});
-    std::optional<AtomicFile> reportFile;
-    if (!options.report.empty())
-        reportFile.emplace(options.report);
+    requireDistinctFiles({{"--report", options.report}, {"--junit", options.junit}},
+                         {options.reference, options.test});
+    RequestedFile reportFile(options.report);
+    RequestedFile junitFile(options.junit);
+    Stopwatch watch;
     const Estimate reference = readEstimate(options.reference);
     const Estimate test = readEstimate(options.test);
     requireSameSize(reference.mean, options.reference, test.mean, options.test);
@@ -35,9 +44,10 @@ ExitCode runStatisticalDiff(const DiffOptions &options, const std::string &comma
         report["test"] = options.test;
         report["statistical"] = welchToJson(result, options.welch);
         report["passed"] = result.isPassed();
-        reportFile->write(jsonText(report));
-        reportFile->commit();
+        reportFile.store(jsonText(report));
     }
+    if (junitFile)
+        junitFile.store(diffToJunit(options, watch.lap().seconds(), failureOf(result)));
     return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -16,6 +16,8 @@ struct DiffOptions {
     std::string mask;
     std::string heatMap;
     std::string report;
+    std::string html;
+    std::string junit;
     bool isStatistical = false;
     WelchOptions welch;
     double outlierThreshold = 0.0;
@@ -28,6 +30,9 @@ struct DiffOptions {
 
 /// Throws Error{BadInput}.
 void requireSameSize(const Image &a, const std::string &pathA, const Image &b, const std::string &pathB);
+
+/// The verdict on two files as JUnit XML. No failure: they passed.
+[[nodiscard]] std::string diffToJunit(const DiffOptions &options, double seconds, const std::string &failure);
 
 /// Compares two images as numbers, against bounds.
 [[nodiscard]] ExitCode runDiff(const DiffOptions &options, const std::string &commandLine);

@@ -1,18 +1,21 @@
-#include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
 #include "host/base/message.h"
 #include "host/cli/diff_options.h"
 #include "host/cli/options.h"
+#include "host/cli/requested_file.h"
+#include "host/film/timeline.h"
 #include "host/image/comparison_json.h"
 #include "host/image/heat_map.h"
 #include "host/image/png.h"
 #include "host/image/ssim.h"
+#include "host/lab/comparison_html.h"
 #include "host/report/provenance.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -147,19 +150,32 @@ void printTable(const DiffOptions &options, const Inputs &inputs, const ImageCom
         printAlpha(options, *comparison.alpha, inputs.reference.image.width(), pixels.pixelCount);
 }
 
+std::string verdictText(const std::vector<ErrorGate> &gates, bool isPassed) {
+    if (gates.empty())
+        return isPassed ? "identical" : "not identical";
+    return isPassed ? "passed" : "FAILED";
+}
+
 void printVerdict(const std::vector<ErrorGate> &gates, bool isPassed) {
     for (const ErrorGate &gate : gates)
         printResult("{:<15}{:g}: {}, {:.6g}\n", gate.option, gate.limit, gate.isPassed ? "passed" : "FAILED",
                     gate.value);
-    if (gates.empty())
-        printResult("{}\n", isPassed ? "identical" : "not identical");
-    else
-        printResult("{}\n", isPassed ? "passed" : "FAILED");
+    printResult("{}\n", verdictText(gates, isPassed));
 }
 
-std::string formatReport(const DiffOptions &options, const std::string &commandLine, const Inputs &inputs,
-                         const ImageComparison &comparison, const std::vector<ErrorGate> &gates,
-                         bool isPassed) {
+/// Why a comparison fails, for CI.
+std::string failureText(const std::vector<ErrorGate> &gates, const PixelMetrics &pixels) {
+    std::string text = fmt::format("{} of {} pixels differ, by at most {:.6g}", pixels.differingPixelCount,
+                                   pixels.pixelCount, pixels.maxAbsoluteDifference);
+    for (const ErrorGate &gate : gates)
+        if (!gate.isPassed)
+            text += fmt::format("; {} {:g}: found {:.6g}", gate.option, gate.limit, gate.value);
+    return text;
+}
+
+nlohmann::ordered_json reportOf(const DiffOptions &options, const std::string &commandLine,
+                                const Inputs &inputs, const ImageComparison &comparison,
+                                const std::vector<ErrorGate> &gates, bool isPassed) {
     nlohmann::ordered_json report = programToJson(commandLine);
     report["reference"] = options.reference;
     report["test"] = options.test;
@@ -176,24 +192,43 @@ std::string formatReport(const DiffOptions &options, const std::string &commandL
                                    {"value", gate.value},
                                    {"passed", gate.isPassed}});
     report["passed"] = isPassed;
-    return jsonText(report);
+    return report;
+}
+
+std::string pageOf(const DiffOptions &options, const Inputs &inputs, const ImageComparison &comparison,
+                   const std::string &verdict, const nlohmann::ordered_json &report) {
+    const Image reference = inputs.reference.composite();
+    const Image test = inputs.test.composite();
+    return comparisonHtml(
+        {.title = fmt::format("{} and {}", std::filesystem::path(options.reference).filename().string(),
+                              std::filesystem::path(options.test).filename().string()),
+         .verdict = verdict,
+         .isPassed = report.at("passed").get<bool>(),
+         .first = {"reference", options.reference, reference, inputs.reference.alpha,
+                   readAttributes(options.reference)},
+         .second = {"test", options.test, test, inputs.test.alpha, readAttributes(options.test)},
+         .comparison = comparison,
+         .mask = inputs.mask,
+         .centre = {comparison.pixels.worstX, comparison.pixels.worstY},
+         .report = report});
 }
 
 } // namespace
 
 ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
-    requireDistinctFiles({{"--diff", options.heatMap}, {"--report", options.report}},
+    requireDistinctFiles({{"--diff", options.heatMap},
+                          {"--report", options.report},
+                          {"--html", options.html},
+                          {"--junit", options.junit}},
                          {options.reference, options.test, options.mask});
     if (!options.heatMap.empty() && imageFormatOf(options.heatMap) != ImageFormat::Png)
         throw Error(ErrorKind::Usage,
                     fmt::format("--diff '{}': the heat map must be a .png file", options.heatMap));
-    // Opened before the work begins, so that an output that cannot be written is known now.
-    std::optional<AtomicFile> heatMapFile;
-    if (!options.heatMap.empty())
-        heatMapFile.emplace(options.heatMap);
-    std::optional<AtomicFile> reportFile;
-    if (!options.report.empty())
-        reportFile.emplace(options.report);
+    RequestedFile heatMapFile(options.heatMap);
+    RequestedFile reportFile(options.report);
+    RequestedFile htmlFile(options.html);
+    RequestedFile junitFile(options.junit);
+    Stopwatch watch;
 
     const Inputs inputs = readInputs(options);
     const ImageComparison comparison =
@@ -206,12 +241,16 @@ ExitCode runDiff(const DiffOptions &options, const std::string &commandLine) {
     if (heatMapFile) {
         writePng(*heatMapFile, comparison.flipMap.width, comparison.flipMap.height,
                  heatMap(comparison.flipMap), attributesOf(programToJson(commandLine)));
-        heatMapFile->commit();
+        (*heatMapFile).commit();
     }
-    if (reportFile) {
-        reportFile->write(formatReport(options, commandLine, inputs, comparison, gates, isPassed));
-        reportFile->commit();
-    }
+    const nlohmann::ordered_json report = reportOf(options, commandLine, inputs, comparison, gates, isPassed);
+    if (reportFile)
+        reportFile.store(jsonText(report));
+    if (htmlFile)
+        htmlFile.store(pageOf(options, inputs, comparison, verdictText(gates, isPassed), report));
+    if (junitFile)
+        junitFile.store(diffToJunit(options, watch.lap().seconds(),
+                                    isPassed ? "" : failureText(gates, comparison.pixels)));
     printTable(options, inputs, comparison);
     printVerdict(gates, isPassed);
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;

@@ -50,6 +50,14 @@ WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOption
     return result;
 }
 
+std::string failureOf(const WelchResult &result) {
+    return result.isPassed()
+               ? ""
+               : fmt::format(
+                     "NOT estimates of one picture: |z| is above {:.2f} in {} of {} tests, at most {:.2f}",
+                     result.threshold, result.failureCount, result.testCount, result.largest);
+}
+
 nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options) {
     nlohmann::ordered_json json{
         {"significance", options.significance},

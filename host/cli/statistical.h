@@ -21,6 +21,9 @@ CLI::Option *addSignificanceOption(CLI::App &command, WelchOptions &options);
 [[nodiscard]] WelchResult testAndPrint(const Estimate &a, const Estimate &b, const WelchOptions &options,
                                        const std::string &names);
 
+/// Why the test fails, or an empty text.
+[[nodiscard]] std::string failureOf(const WelchResult &result);
+
 /// JSON for reports.
 [[nodiscard]] nlohmann::ordered_json welchToJson(const WelchResult &result, const WelchOptions &options);
 

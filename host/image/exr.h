@@ -42,6 +42,9 @@ enum class ExrWindow {
     Display ///< the picture that was meant; black where nothing is stored
 };
 
+/// The attributes that are texts. Throws as readExr() does if the header cannot be read.
+[[nodiscard]] std::vector<Attribute> readExrAttributes(const InputFile &file);
+
 /// Reads R, G and B, or Y as three equal channels, of a window: from the named layer, or from the channels
 /// without a layer. A layer of X, Y and Z is read as these, one with a single value as grey; "depth" and "Z" are the same
 /// layer. Half floats and integers become float32; all compressions are supported. Throws Error{BadInput}, also for tiles,

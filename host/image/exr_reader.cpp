@@ -549,6 +549,16 @@ std::vector<std::uint32_t> readExrWhole(const InputFile &file, const std::string
     return asked(file, [&] { return readWhole(file, layer); });
 }
 
+std::vector<Attribute> readExrAttributes(const InputFile &file) {
+    return asked(file, [&] {
+        const SafeHeader safeHeader(file);
+        ExrInput input(file, safeHeader);
+        ExrPicture picture;
+        readAttributes(readHeaders(file, safeHeader, input).front(), safeHeader, picture);
+        return picture.attributes;
+    });
+}
+
 ExrPicture readExrPicture(const InputFile &file) {
     return asked(file, [&] {
         const SafeHeader safeHeader(file);

@@ -10,6 +10,7 @@
 #include "host/image/hdr.h"
 #include "host/image/pfm.h"
 #include "host/image/png.h"
+#include "host/image/png_text.h"
 #include "host/image/tone_map.h"
 
 #include <fmt/format.h>
@@ -111,6 +112,14 @@ LoadedImage readImage(const std::filesystem::path &path) {
     if (isHdr(head))
         return {readHdr(file), Encoding::Linear};
     throw file.bad(foreignContent(file, "it is no PNG, OpenEXR, Radiance (HDR) or PFM file"));
+}
+
+std::vector<Attribute> readAttributes(const std::filesystem::path &path) {
+    const InputFile file(path);
+    const std::vector<std::byte> head = file.head(8);
+    return isPng(head)   ? readPngTexts(file)
+           : isExr(head) ? readExrAttributes(file)
+                         : std::vector<Attribute>();
 }
 
 std::string pixelHash(std::span<const std::uint8_t> levels) {

@@ -71,6 +71,10 @@ std::vector<std::string> writeImage(AtomicFile &file, ImageFormat format, const 
 /// readingBytesMax.
 [[nodiscard]] LoadedImage readImage(const std::filesystem::path &path);
 
+/// The texts of a PNG or an OpenEXR file, such as those that say where it comes from; of other files none. Throws
+/// Error{BadInput} where the file cannot be read.
+[[nodiscard]] std::vector<Attribute> readAttributes(const std::filesystem::path &path);
+
 /// The hash of an image's numbers as its file has them, 8-bit levels or floats and then alpha: what its attribute
 /// "pixels" says.
 [[nodiscard]] std::string pixelHash(std::span<const std::uint8_t> levels);

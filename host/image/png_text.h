@@ -1,6 +1,7 @@
-// Writing of text chunks to PNG files (ISO/IEC 15948, 11.3.4), which stb_image_write has not.
+// Text chunks of PNG files (ISO/IEC 15948, 11.3.4), which stb_image_write has not.
 #pragma once
 
+#include "host/base/input_file.h"
 #include "host/image/attribute.h"
 
 #include <cstddef>
@@ -17,5 +18,9 @@ void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<
 /// are. Control characters in texts, except line feeds, also become U+FFFD. "software" gets its standard keyword,
 /// "Software".
 void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attributes);
+
+/// The texts before the pixels: those of insertTexts(), and tEXt. Compressed ones, and those that are damaged or have more
+/// than a MiB, are passed over. Throws Error{BadInput} where the file cannot be read.
+[[nodiscard]] std::vector<Attribute> readPngTexts(const InputFile &file);
 
 } // namespace hyalite::core

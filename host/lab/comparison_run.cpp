@@ -1,6 +1,9 @@
 #include "host/lab/comparison_run.h"
 
 #include "host/jobs/layers.h"
+#include "host/report/junit.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -35,8 +38,14 @@ ComparedRenders renderBoth(const ComparisonRun &run, const PreparedScene &scene,
     auto [b, imageB] = renderAll(*run.second);
     ImageComparison comparison = compareImages(imageB, imageA);
     const std::size_t differingLight = a.film.light.empty() ? 0 : differingPixelCount(a.film, b.film);
-    return {std::move(a),          std::move(b),  std::move(imageA.image), std::move(imageB.image),
-            std::move(comparison), differingLight};
+    return {std::move(a),
+            std::move(b),
+            std::move(imageA.image),
+            std::move(imageB.image),
+            std::move(imageA.alpha),
+            std::move(imageB.alpha),
+            std::move(comparison),
+            differingLight};
 }
 
 glm::ivec2 worstPixel(const ComparedRenders &renders) {
@@ -87,6 +96,37 @@ std::optional<Divergence> findFirstDivergence(Backend &first, Backend &second, c
             return divergence;
     }
     return std::nullopt;
+}
+
+std::string describe(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence) {
+    const std::string place = fmt::format("pixel ({}, {})", pixel.x, pixel.y);
+    if (!divergence)
+        return place + ": the paths agree in every step; what differs is how work is cut or summed";
+    return place + fmt::format(", sample {}, bounce {}: {}: first {}, second {}", divergence->sampleIndex,
+                               divergence->rayDepth - 1, divergence->quantity, divergence->valueA,
+                               divergence->valueB);
+}
+
+nlohmann::ordered_json tracesToJson(Backend &first, Backend &second, const PreparedScene &scene,
+                                    const glm::uvec2 &pixel, const Divergence &divergence) {
+    const auto stepsBy = [&](Backend &backend) {
+        nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+        for (const TraceStep &step :
+             describeTrace(backend.trace(scene.packed, scene.loaded.settings, pixel, divergence.sampleIndex),
+                           scene.packed.frame.firstTriangleId, scene.loaded.scene.origin))
+            steps.push_back({step.rayDepth - 1, step.quantity, step.value});
+        return steps;
+    };
+    return {{"step", divergence.eventIndex}, {"first", stepsBy(first)}, {"second", stepsBy(second)}};
+}
+
+std::string comparisonToJunit(const ComparisonRun &run, const PreparedScene &scene, double seconds,
+                              const std::string &failure) {
+    const std::string renderers =
+        fmt::format("{} against {}", run.first->description(), run.second->description());
+    const std::vector<TestSuite> suites{
+        {renderers, {{"hyalite compare", scene.loaded.file.string(), seconds, failure}}}};
+    return junitText("hyalite compare", suites);
 }
 
 nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,

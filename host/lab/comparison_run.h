@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -35,6 +36,8 @@ struct ComparedRenders {
     BackendResult b;
     Image imageA; ///< of their films
     Image imageB;
+    std::vector<float> alphaA; ///< empty: opaque
+    std::vector<float> alphaB;
     ImageComparison comparison;
     std::size_t differingLight = 0; ///< pixels of films with layers of light that differ in any bit
 };
@@ -54,6 +57,18 @@ struct ComparedRenders {
 /// Retraces a pixel of the whole image on both sides, sample by sample, until a step differs.
 [[nodiscard]] std::optional<Divergence>
 findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene, const glm::uvec2 &pixel);
+
+/// What a divergence is, in one line.
+[[nodiscard]] std::string describe(const glm::uvec2 &pixel, const std::optional<Divergence> &divergence);
+
+/// "first" and "second": the steps of both paths, each an array of bounce, quantity and value; and "step", the index of
+/// the first that differs.
+[[nodiscard]] nlohmann::ordered_json tracesToJson(Backend &first, Backend &second, const PreparedScene &scene,
+                                                  const glm::uvec2 &pixel, const Divergence &divergence);
+
+/// The verdict on a scene as JUnit XML. No failure: it passed.
+[[nodiscard]] std::string comparisonToJunit(const ComparisonRun &run, const PreparedScene &scene,
+                                            double seconds, const std::string &failure);
 
 /// The beginning of a report on two renders.
 [[nodiscard]] nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,

@@ -1,8 +1,8 @@
 #include "host/lab/verify_report.h"
 
 #include "host/base/hash.h"
-#include "host/base/markup.h"
 #include "host/lab/comparison_run.h"
+#include "host/report/junit.h"
 #include "host/report/provenance.h"
 #include "host/scene/names.h"
 
@@ -46,18 +46,15 @@ nlohmann::ordered_json toJson(const FilmVerdict &verdict) {
     return json;
 }
 
-std::string toCase(const DeviceVerdict &device, const FilmVerdict &verdict) {
-    const std::string name =
-        nameOf(verdict.film) + (verdict.kernel.empty() ? std::string() : ", " + verdict.kernel);
-    std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
-                                   markupText(device.device), markupText(name), verdict.seconds);
+TestCase toCase(const DeviceVerdict &device, const FilmVerdict &verdict) {
+    TestCase test{device.device,
+                  nameOf(verdict.film) + (verdict.kernel.empty() ? std::string() : ", " + verdict.kernel),
+                  verdict.seconds};
     if (verdict.isSkipped())
-        return text +
-               fmt::format(">\n      <skipped message=\"{}\"/>\n    </testcase>\n", markupText(verdict.lack));
-    if (!verdict.isFaulty())
-        return text + "/>\n";
-    const std::string why = !verdict.failure.empty() ? verdict.failure : describe(*verdict.difference);
-    return text + fmt::format(">\n      <failure message=\"{}\"/>\n    </testcase>\n", markupText(why));
+        test.skipped = verdict.lack;
+    else if (verdict.isFaulty())
+        test.failure = !verdict.failure.empty() ? verdict.failure : describe(*verdict.difference);
+    return test;
 }
 
 } // namespace
@@ -83,21 +80,13 @@ std::string describe(const FilmDifference &difference) {
 }
 
 std::string verificationToJunit(std::span<const DeviceVerdict> devices) {
-    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hyalite verify\">\n";
+    std::vector<TestSuite> suites;
     for (const DeviceVerdict &device : devices) {
-        double seconds = 0.0;
+        TestSuite &suite = suites.emplace_back(device.description);
         for (const FilmVerdict &film : device.films)
-            seconds += film.seconds;
-        text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
-                            "errors=\"0\" time=\"{:.3f}\">\n",
-                            markupText(device.description), device.films.size(),
-                            std::ranges::count_if(device.films, &FilmVerdict::isFaulty),
-                            std::ranges::count_if(device.films, &FilmVerdict::isSkipped), seconds);
-        for (const FilmVerdict &film : device.films)
-            text += toCase(device, film);
-        text += "  </testsuite>\n";
+            suite.cases.push_back(toCase(device, film));
     }
-    return text + "</testsuites>\n";
+    return junitText("hyalite verify", suites);
 }
 
 nlohmann::ordered_json verificationToJson(const ShippedFilms &shipped, std::span<const DeviceVerdict> devices,

@@ -50,6 +50,27 @@ std::string visibilityText(const TraceEvent &event) {
                        event.integer < words.size() ? words[event.integer] : "?");
 }
 
+std::string nameOf(std::uint32_t quantity) {
+    return std::string(quantity < quantityNames.size() ? quantityNames[quantity] : "?");
+}
+
+std::string valueText(const TraceEvent &event, std::uint32_t firstTriangleId, const glm::dvec3 &origin) {
+    switch (event.quantity) {
+    case layout::traceHit:
+        return fmt::format("{} at distance {}", primitiveText(event.integer, firstTriangleId),
+                           floatText(event.value.x));
+    case layout::traceVisibility:
+        return visibilityText(event);
+    case layout::traceReflectance:
+        return (event.integer != 0 ? "total, " : "") + floatText(event.value.x);
+    case layout::traceRayOrigin:
+    case layout::traceSurfacePosition:
+        return pointText(event.value, origin);
+    default:
+        return vectorText(event.value);
+    }
+}
+
 bool areSameBits(const glm::vec3 &a, const glm::vec3 &b) {
     return std::bit_cast<std::array<std::uint32_t, 3>>(a) == std::bit_cast<std::array<std::uint32_t, 3>>(b);
 }
@@ -65,9 +86,6 @@ Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index,
     divergence.rayDepth = a.rayDepth;
     divergence.isDiscrete = !isSameDecision(a, b);
     divergence.eventIndex = static_cast<std::uint32_t>(index);
-    const auto nameOf = [](std::uint32_t quantity) {
-        return std::string(quantity < quantityNames.size() ? quantityNames[quantity] : "?");
-    };
     if (a.quantity != b.quantity || a.rayDepth != b.rayDepth) {
         divergence.quantity = "what comes next";
         divergence.valueA = fmt::format("{} at depth {}", nameOf(a.quantity), a.rayDepth);
@@ -81,23 +99,11 @@ Divergence describe(const TraceEvent &a, const TraceEvent &b, std::size_t index,
         divergence.quantity = isDistance ? "hit distance" : "hit weights";
         divergence.valueA = isDistance ? floatText(a.value.x) : vectorText(a.value);
         divergence.valueB = isDistance ? floatText(b.value.x) : vectorText(b.value);
-    } else if (a.quantity == layout::traceHit) {
-        divergence.quantity = "hit primitive";
-        divergence.valueA =
-            fmt::format("{} at distance {}", primitiveText(a.integer, firstTriangleId), floatText(a.value.x));
-        divergence.valueB =
-            fmt::format("{} at distance {}", primitiveText(b.integer, firstTriangleId), floatText(b.value.x));
-    } else if (a.quantity == layout::traceVisibility) {
-        divergence.valueA = visibilityText(a);
-        divergence.valueB = visibilityText(b);
-    } else if (a.quantity == layout::traceReflectance) {
-        divergence.valueA = (a.integer != 0 ? "total, " : "") + floatText(a.value.x);
-        divergence.valueB = (b.integer != 0 ? "total, " : "") + floatText(b.value.x);
     } else {
-        const bool isPoint =
-            a.quantity == layout::traceRayOrigin || a.quantity == layout::traceSurfacePosition;
-        divergence.valueA = pointText(a.value, isPoint ? origin : glm::dvec3(0.0));
-        divergence.valueB = pointText(b.value, isPoint ? origin : glm::dvec3(0.0));
+        if (a.quantity == layout::traceHit)
+            divergence.quantity = "hit primitive";
+        divergence.valueA = valueText(a, firstTriangleId, origin);
+        divergence.valueB = valueText(b, firstTriangleId, origin);
     }
     return divergence;
 }
@@ -124,6 +130,14 @@ std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std:
 }
 
 } // namespace
+
+std::vector<TraceStep> describeTrace(const std::vector<TraceEvent> &trace, std::uint32_t firstTriangleId,
+                                     const glm::dvec3 &origin) {
+    std::vector<TraceStep> steps;
+    for (const TraceEvent &event : trace)
+        steps.push_back({event.rayDepth, nameOf(event.quantity), valueText(event, firstTriangleId, origin)});
+    return steps;
+}
 
 std::optional<Divergence> findDivergence(const std::vector<TraceEvent> &a, const std::vector<TraceEvent> &b,
                                          std::uint32_t firstTriangleId, const glm::dvec3 &origin) {

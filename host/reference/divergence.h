@@ -21,6 +21,18 @@ struct Divergence {
     std::uint32_t eventIndex = 0; ///< in both traces
 };
 
+/// A step of a path, in words.
+struct TraceStep {
+    std::uint32_t rayDepth = 0; ///< segment number of the ray: 1 for a primary ray
+    std::string quantity;       ///< "hit", "surface normal", ...
+    std::string value;          ///< in decimal and, for floats, in hexadecimal
+};
+
+/// The steps of a trace; arguments as below.
+[[nodiscard]] std::vector<TraceStep> describeTrace(const std::vector<layout::TraceEvent> &trace,
+                                                   std::uint32_t firstTriangleId,
+                                                   const glm::dvec3 &origin = glm::dvec3(0.0));
+
 /// Compares two traces of the same sample, step by step. `firstTriangleId` is that of the scene's frame. Points are
 /// told in the coordinates of its file: those of the scene + `origin`.
 [[nodiscard]] std::optional<Divergence> findDivergence(const std::vector<layout::TraceEvent> &a,

@@ -9,9 +9,6 @@
 
 namespace hyalite::core {
 
-/// RFC 4648, with padding.
-[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
-
 /// `png` is the encoded image, and `heatMapPng` that of its work, if it was counted: they become "picture" and
 /// "heatMap" of the report (profile_json.h).
 [[nodiscard]] std::string profileHtml(const Profile &profile, std::span<const std::byte> png,

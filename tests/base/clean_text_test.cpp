@@ -18,6 +18,7 @@ TEST(CleanText, KeepsWhatIsText) {
 TEST(CleanText, HasNoControlCharacters) {
     EXPECT_EQ(cleanText("\x1b[31m\r\t\x7f\0"s), instead + "[31m" + instead + instead + instead + instead);
     EXPECT_EQ(cleanText("\u0080\u009F"), instead + instead);
+    EXPECT_EQ(cleanText("\uFFFE\uFFFF\uFFBE"), instead + instead + "\uFFBE");
 }
 
 TEST(CleanText, DoesNotTurnOrBreakLines) {

@@ -1,5 +1,6 @@
 #include "host/base/markup.h"
 #include "host/report/figure_text.h"
+#include "host/report/page.h"
 #include "host/report/profile_html.h"
 #include "host/report/profile_json.h"
 #include "tests/fixtures/page_fixture.h"

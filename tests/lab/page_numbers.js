@@ -1,0 +1,16 @@
+// Runs the functions of a comparison's page (host/lab/page) without a browser:
+//
+//   node page_numbers.js PAGE CURVE STOPS    prints of each pixel three levels of the first picture, and its ULPs
+'use strict';
+const [, , file, curve, stops] = process.argv;
+const text = require('fs').readFileSync(file, 'utf8');
+const [, data] = text.match(/<script type="application\/json" id="report">([^<]*)<\/script>/);
+const [, script] = text.match(/<script>\n(.*?)\n\/\/ The page: /s);
+const { decodedPicture, toneMapped, pixelUlps } =
+  new Function(`${script}\nreturn { decodedPicture, toneMapped, pixelUlps };`)();
+
+const { page } = JSON.parse(data);
+const [width, height] = [page.window[1] - page.window[0], page.window[3] - page.window[2]];
+const [first, second] = page.pictures.map(({ pixels }) => decodedPicture(pixels, width, height, page.channels));
+const levels = toneMapped(first, Number(stops), curve);
+console.log([...pixelUlps(first, second)].map((ulps, i) => [...levels.subarray(4 * i, 4 * i + 3), ulps].join(' ')).join('\n'));
