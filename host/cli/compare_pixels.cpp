@@ -104,7 +104,7 @@ std::string pageOf(const Findings &findings) {
             tracesToJson(*run.first, *run.second, scene, imagePixel(scene.crop, worst), *verdict.divergence);
     const auto pictureOf = [&](const char *role, const Backend &backend, const Image &image,
                                const std::vector<float> &alpha) {
-        return ComparedPicture{role, backend.name(), image, alpha,
+        return ComparedPicture{role, backend.description(), image, alpha,
                                attributesOf(rendererToJson(backend.identity(scene.packed, integrator)))};
     };
     return comparisonHtml({.title = scene.loaded.file.filename().string(),

@@ -23,7 +23,8 @@ void requireSameSize(const Image &a, const std::string &pathA, const Image &b, c
 
 std::string diffToJunit(const DiffOptions &options, double seconds, const std::string &failure) {
     const std::vector<TestSuite> suites{
-        {"hyalite diff", {{options.reference, options.test, seconds, failure}}}};
+        {"hyalite diff",
+         {{"hyalite diff", fmt::format("{} and {}", options.reference, options.test), seconds, failure}}}};
     return junitText("hyalite diff", suites);
 }
 

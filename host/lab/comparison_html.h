@@ -13,7 +13,7 @@
 
 namespace hyalite::core {
 
-/// Of larger pictures, a page holds a part of so many pixels: 1920x1080 are whole. The page of two has 64 MiB.
+/// Of larger pictures, a page holds a part of so many pixels: 1920x1080 are whole. The page of two has 75 MiB.
 inline constexpr std::int64_t pagePixelCountMax = std::int64_t{1} << 21;
 
 struct ComparedPicture {

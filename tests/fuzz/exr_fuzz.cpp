@@ -31,6 +31,7 @@ void readOthers(const std::filesystem::path &path, std::size_t sizeBytes) {
                 "alpha of some pixels");
     }));
     static_cast<void>(refusalOf([&] { (void)readExrWhole(InputFile(path), "samples"); }));
+    static_cast<void>(refusalOf([&] { (void)readExrAttributes(InputFile(path)); }));
     static_cast<void>(refusalOf([&] {
         const ExrPicture read = readExrPicture(InputFile(path));
         require(!read.channels.empty() && read.crop.width() <= read.wholeWidth, "a picture without channels");

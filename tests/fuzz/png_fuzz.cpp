@@ -53,6 +53,7 @@ void run(std::string_view content) {
     if (loaded.encoding != Encoding::Display)
         return; // the first bytes have become those of a PFM
     require(!refusalOf([&] { (void)readTexture(file); }), "a picture that is no texture");
+    require(!refusalOf([&] { (void)readAttributes(file); }), "a picture whose texts are refused");
     for (const glm::vec3 &pixel : loaded.image.pixels())
         for (glm::length_t channel = 0; channel < 3; ++channel)
             require(pixel[channel] >= 0.0f && pixel[channel] <= 1.0f, "a level out of range");

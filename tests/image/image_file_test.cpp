@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -426,6 +427,48 @@ TEST_F(ImageFileTest, APngSaysWhatItIsToldToAndShowsTheSame) {
     EXPECT_EQ(chunks[4].data, chunksOf(plain)[1].data);
     EXPECT_EQ(chunks[5].type, "IEND");
     EXPECT_EQ(readBytes(file).pixels(), readBytes(plain).pixels());
+}
+
+TEST_F(ImageFileTest, TextsAreReadAsTheyWereWritten) {
+    const Image image = randomImage(13, 7, 5);
+    const std::vector<Attribute> attributes{{"software", "hyalite"}, {"scene", "a \u00FC.json"}};
+    Picture picture(image);
+    picture.attributes = attributes;
+    for (const char *name : {"a.png", "a.exr"}) {
+        AtomicFile file(folder / name);
+        writeImage(file, imageFormatOf(name), picture, 0.0);
+        file.commit();
+        std::vector<Attribute> read = readAttributes(folder / name);
+        std::erase_if(read, [](const Attribute &attribute) { return attribute.first == "pixels"; });
+        std::ranges::sort(read, std::greater());
+        EXPECT_EQ(read, attributes) << name;
+    }
+    AtomicFile file(folder / "a.pfm");
+    writeImage(file, ImageFormat::Pfm, picture, 0.0);
+    file.commit();
+    EXPECT_TRUE(readAttributes(folder / "a.pfm").empty());
+}
+
+TEST_F(ImageFileTest, TextsOfOtherProgramsAreReadAndDamagedOnesPassedOver) {
+    const std::string plain = fileOf(randomImage(3, 2, 1), {});
+    constexpr std::size_t headerEnd = 33;
+    const auto textsOf = [&](const std::string &chunks) {
+        std::ofstream(folder / "a.png", std::ios::binary)
+            << plain.substr(0, headerEnd) << chunks << plain.substr(headerEnd);
+        return readAttributes(folder / "a.png");
+    };
+    const std::vector<Attribute> one{{"name", "text"}};
+    EXPECT_EQ(textsOf(chunk("tEXt", "name\0text"s)), one);
+    EXPECT_EQ(textsOf(chunk("iTXt", "name\0\0\0de\0Name\0text"s)), one);
+    EXPECT_EQ(textsOf(chunk("zTXt", "name\0\0x"s) + chunk("iTXt", "name\0\1\0\0\0x"s)).size(),
+              0u); // compressed
+    EXPECT_EQ(textsOf(chunk("iTXt", "name")).size(), 0u);
+    EXPECT_EQ(textsOf(chunk("iTXt", "name\0\0\0de"s)), (std::vector<Attribute>{{"name", ""}}));
+    EXPECT_EQ(textsOf(chunk("tEXt", "")), (std::vector<Attribute>{{"", ""}}));
+    EXPECT_EQ(textsOf(chunk("tEXt", std::string(2'000'000, 'x')) + chunk("tEXt", "name\0text"s)), one);
+    EXPECT_EQ(textsOf("\xff\xff\xff\xfftEXt"s).size(), 0u);
+    std::ofstream(folder / "a.png", std::ios::binary) << plain.substr(0, 11);
+    EXPECT_TRUE(readAttributes(folder / "a.png").empty());
 }
 
 TEST_F(ImageFileTest, AFailingOutputIsReportedByTheWriter) {

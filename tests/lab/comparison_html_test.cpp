@@ -88,17 +88,17 @@ ComparisonPage pageOf(const Pair &pair, const ImageComparison &comparison) {
 
 ImageComparison comparisonOf(const Pair &pair) { return compareImages(pair.a, pair.b, Encoding::Linear); }
 
-/// What tests/lab/page_numbers.js prints of a page, for a tone curve.
-std::vector<std::vector<std::int64_t>> rowsByScript(const std::string &page, const std::string &curve,
-                                                    const std::string &stops) {
+/// What tests/lab/page_numbers.js prints of a page, for all tone curves.
+std::vector<std::vector<std::int64_t>> rowsByScript(const std::string &page, double stops) {
     const std::filesystem::path file =
         std::filesystem::path(::testing::TempDir()) /
         fmt::format("comparison-{}.html", ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::ofstream(file) << page;
-    FILE *const pipe = popen(fmt::format("node '{}/tests/lab/page_numbers.js' '{}' {} {} 2>&1",
-                                         HYALITE_SOURCE_DIR, file.string(), curve, stops)
-                                 .c_str(),
-                             "r");
+    std::string command =
+        fmt::format("node '{}/tests/lab/page_numbers.js' '{}' {}", HYALITE_SOURCE_DIR, file.string(), stops);
+    for (const auto &[name, curve] : toneCurveNames)
+        command += fmt::format(" {}", name);
+    FILE *const pipe = popen((command + " 2>&1").c_str(), "r");
     std::string text;
     for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
         text += static_cast<char>(letter);
@@ -207,25 +207,26 @@ TEST(ComparisonHtml, ItsScriptComputesAsTheProgramDoes) {
     const Pair pair;
     const ImageComparison comparison = comparisonOf(pair);
     const std::string page = comparisonHtml(pageOf(pair, comparison));
-    for (const auto &[name, curve] : toneCurveNames)
-        for (const double stops : {0.0, 1.75, -3.0}) {
-            const auto rows = rowsByScript(page, std::string(name), fmt::format("{}", stops));
-            ASSERT_EQ(rows.size(), pair.a.pixels().size()) << name;
+    for (const double stops : {0.0, 1.75, -3.0}) {
+        const auto rows = rowsByScript(page, stops);
+        ASSERT_EQ(rows.size(), pair.a.pixels().size());
+        std::size_t column = 0;
+        for (const auto &[name, curve] : toneCurveNames) {
             const std::vector<std::uint8_t> levels = toneMap(pair.a, stops, curve);
             const std::int64_t allowed = curve == ToneCurve::Gamma ? 0 : 1;
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                ASSERT_EQ(rows[i].size(), 4u);
-                std::uint32_t distance = 0;
-                for (int k = 0; k < 3; ++k) {
-                    EXPECT_LE(std::abs(rows[i][static_cast<std::size_t>(k)] -
-                                       levels[3 * i + static_cast<std::size_t>(k)]),
-                              allowed)
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    EXPECT_LE(std::abs(rows[i].at(column + k) - levels[3 * i + k]), allowed)
                         << name << ' ' << i;
-                    distance = std::max(distance, ulpDistance(pair.a.pixels()[i][k], pair.b.pixels()[i][k]));
-                }
-                EXPECT_EQ(rows[i][3], distance) << i;
-            }
+            column += 3;
         }
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            std::uint32_t distance = 0;
+            for (int k = 0; k < 3; ++k)
+                distance = std::max(distance, ulpDistance(pair.a.pixels()[i][k], pair.b.pixels()[i][k]));
+            EXPECT_EQ(rows[i].at(column), distance) << i;
+        }
+    }
 }
 
 TEST(ComparisonHtml, NeedsNothingElseAndNamesMayHoldAnything) {

@@ -14,7 +14,8 @@ function element(tag, attributes = {}, ...children) {
   return node;
 }
 const row = (cells, cell = 'td') => element('tr', {}, cells.map(text => element(cell, {}, text ?? '–')));
-const headOf = names => element('thead', {}, element('tr', {}, names.map(name => element('th', { scope: 'col' }, name))));
+const headOf = names =>
+  element('thead', {}, element('tr', {}, names.map(name => element('th', { scope: 'col' }, name))));
 
 // ---- Pictures
 
@@ -168,25 +169,17 @@ function showDifference(step) {
 }
 
 function showLargest() {
-  let index = -1;
-  for (let i = 0, most = 0; i < ulps.length; ++i) {
-    let size = 0;
-    for (let k = i * page.channels; k < (i + 1) * page.channels; ++k)
-      if (first.bits[k] !== second.bits[k]) size = Math.max(size, Math.abs(differenceOf(first.values[k], second.values[k], 1)));
-    if (size > most) [index, most] = [i, size];
-  }
+  const index = largestDifference(first, second);
   if (index >= 0) show(index % width, Math.floor(index / width));
   else showDifference(1);
 }
 
 // ---- What is set
 
-const timesText = () => `× ${state.times}`;
-
 function setView(view) {
   state.view = view;
   document.querySelector(`input[value="${view}"]`).checked = true;
-  canvas.ariaLabel = `Shown: ${views[view].name}. Arrow keys move the pixel that is read.`;
+  canvas.setAttribute('aria-label', `Shown: ${views[view].name}. Arrow keys move the pixel that is read.`);
   drawSoon();
 }
 function setStops(stops) {
@@ -199,7 +192,7 @@ function setTimes(power) {
   const bounds = Math.min(Math.max(power, 0), 24);
   state.times = 2 ** bounds;
   byId('gain').value = bounds;
-  byId('gainText').textContent = timesText();
+  byId('gainText').textContent = `× ${state.times}`;
   drawSoon();
 }
 function setWipe(share) {
@@ -270,7 +263,8 @@ document.addEventListener('keydown', event => {
   action(event);
 });
 byId('keys').append(...[
-  ['1 to 6', 'what is shown'], ['Space', 'one picture, then the other'], ['+ − 0 z', 'zoom: in, out, all, pixel by pixel'],
+  ['1 to 6', 'what is shown'], ['Space', 'one picture, then the other'],
+  ['+ − 0 z', 'zoom: in, out, all, pixel by pixel'],
   ['Arrows', 'move the pixel that is read; with Shift by 10'], ['n p l', 'next, previous, largest difference'],
   ['[ ]', 'exposure'], [', .', 'factor of the difference'], ['t', 'tone curve'],
   ['Pointer', 'reads a pixel; wheel or two fingers zoom, dragging moves'],
@@ -282,7 +276,8 @@ const pointers = new Map();
 let isWiping = false;
 const placeOn = event => {
   const box = canvas.getBoundingClientRect();
-  return { x: (event.clientX - box.left) * canvas.width / box.width, y: (event.clientY - box.top) * canvas.height / box.height };
+  return { x: (event.clientX - box.left) * canvas.width / box.width,
+           y: (event.clientY - box.top) * canvas.height / box.height };
 };
 function readAt({ x, y }) {
   const [column, line] = [Math.floor((x - leftOf()) / state.zoom), Math.floor((y - topOf()) / state.zoom)];
@@ -328,6 +323,7 @@ canvas.addEventListener('wheel', event => {
   zoomTo(state.zoom * 2 ** (-event.deltaY / 200), place.x, place.y);
 }, { passive: false });
 
+canvas.style.aspectRatio = `${width} / ${height}`;
 let isFitted = false;
 new ResizeObserver(() => {
   canvas.width = Math.max(Math.round(canvas.clientWidth * devicePixelRatio), 1);
@@ -341,9 +337,11 @@ new ResizeObserver(() => {
 
 const ofText = (count, total) => `${count} of ${total}`;
 const valueCount = page.ulps.reduce((sum, [, , count]) => sum + count, 0);
-const number = (value, digits) => value === null || value === undefined ? undefined : Number(value).toPrecision(digits);
+const number = (value, digits) =>
+  value === null || value === undefined ? undefined : String(Number(Number(value).toPrecision(digits)));
 // JSON has null for what is infinite.
-const decibels = value => value === null ? (report.differingPixelCount === 0 ? '∞ dB' : '−∞ dB') : `${value.toFixed(2)} dB`;
+const decibels = value =>
+  value !== null ? `${value.toFixed(2)} dB` : report.differingPixelCount === 0 ? '∞ dB' : '−∞ dB';
 
 const figures = {
   'differing pixels': ofText(report.differingPixelCount, report.pixelCount),
@@ -354,7 +352,7 @@ const figures = {
   'SSIM': report.ssim === null ? 'not available' : report.ssim.toFixed(6),
   [`${report.flip.kind}-FLIP, mean`]: report.flip.mean.toFixed(6),
   [`${report.flip.kind}-FLIP, largest`]: report.flip.max.toFixed(6),
-  'mean difference': report.meanDifference === null ? 'not finite' : number(report.meanDifference, 4),
+  'mean absolute difference': report.meanAbsoluteDifference === null ? '∞' : number(report.meanAbsoluteDifference, 6),
   'not finite': report.nonFiniteCount ? `${report.nonFiniteCount} pixels` : undefined,
   'outliers': report.outliers ?? (report.outlierThreshold ? report.outlierCount : undefined),
   'unexplained outliers': report.unexplainedOutliers,
@@ -369,13 +367,14 @@ const figures = {
 byId('figures').append(...Object.entries(figures).filter(([, text]) => text !== undefined)
   .map(([name, text]) => element('div', {}, element('dt', {}, name), element('dd', {}, text))));
 
-const mostValues = Math.max(...page.ulps.map(([, , count]) => count));
+const mostDiffering = Math.max(...page.ulps.slice(1).map(([, , count]) => count));
 byId('histogram').append(headOf(['ULP', 'values', 'share', '']), element('tbody', {},
   page.ulps.map(([least, most, count]) => {
     const bar = element('i');
-    bar.style.width = `${100 * count / mostValues}%`;
-    bar.hidden = count === 0;
-    return row([least === most ? least : `${least} to ${most}`, count, `${(100 * count / valueCount).toFixed(3)} %`, bar]);
+    bar.style.width = `${100 * count / mostDiffering}%`;
+    bar.hidden = count === 0 || most === 0;
+    return row([least === most ? least : `${least} to ${most}`, count,
+      `${(100 * count / valueCount).toFixed(3)} %`, bar]);
   })));
 
 function differenceSection({ pixel: [x, y], sample, bounce, quantity, first: a, second: b }, traces) {
@@ -386,20 +385,21 @@ function differenceSection({ pixel: [x, y], sample, bounce, quantity, first: a, 
   });
   const nodes = [element('h2', {}, 'First step that differs')];
   if (quantity === undefined)
-    return [...nodes, element('p', {}, `Pixel (${x}, ${y}): the paths agree in every step; what differs is how work is cut ` +
-      'or summed.'), button];
-  nodes.push(element('p', {}, `Pixel (${x}, ${y}), sample ${sample}, bounce ${bounce}: ${quantity}. First: ${a}. Second: ${b}.`),
-    element('p', {}, button));
+    return [...nodes, element('p', {}, `Pixel (${x}, ${y}): the paths agree in every step; what differs is how work ` +
+      'is cut or summed.'), button];
+  nodes.push(element('p', {}, `Pixel (${x}, ${y}), sample ${sample}, bounce ${bounce}: ${quantity}`),
+    element('p', {}, `${roles[0]}: ${a}`), element('p', {}, `${roles[1]}: ${b}`), element('p', {}, button));
   if (traces) {
-    const steps = Array.from({ length: Math.max(traces.first.length, traces.second.length) }, (_, i) => {
+    const stepCount = Math.max(traces.first.length, traces.second.length);
+    const steps = Array.from({ length: Math.min(stepCount, traces.step + 3) }, (_, i) => {
       const [before, after] = [traces.first[i], traces.second[i]];
       const line = row([(before ?? after)[0], (before ?? after)[1], before?.[2], after?.[2]]);
       line.className = i === traces.step ? 'differs' : '';
       return line;
     });
-    nodes.push(element('details', { open: true }, element('summary', {}, 'Both paths, step by step'),
-      element('div', { className: 'table' },
-        element('table', { id: 'trace' }, headOf(['bounce', 'quantity', 'first', 'second']), element('tbody', {}, steps)))));
+    nodes.push(element('details', { open: true }, element('summary', {}, 'Both paths up to there'),
+      element('div', { className: 'table' }, element('table', { id: 'trace' },
+        headOf(['bounce', 'quantity', ...roles]), element('tbody', {}, steps)))));
   }
   return nodes;
 }
@@ -412,26 +412,30 @@ function* texts(value, path) {
     for (const [key, part] of Object.entries(value)) yield* texts(part, path ? `${path}.${key}` : key);
   else yield [path, Array.isArray(value) ? value.join(', ') : String(value)];
 }
-const ofBoth = Object.fromEntries(['program', 'commandLine', 'scene', 'sceneHash', 'triangles', 'origin', 'image', 'settings']
-  .flatMap(key => key in report ? [...texts(report[key], key)] : []));
+const ofBoth = Object.fromEntries(
+  ['program', 'commandLine', 'scene', 'sceneHash', 'triangles', 'origin', 'image', 'settings']
+    .flatMap(key => key in report ? [...texts(report[key], key)] : []));
 const origins = page.pictures.map(({ name, origin }) => ({ name, ...Object.fromEntries(origin) }));
+// What differs comes first; what is equal stands there once.
+const originKeys = [...new Set(origins.flatMap(Object.keys))];
+const differs = key => origins[0][key] !== origins[1][key];
+const sharedRow = ([key, text]) => element('tr', {}, element('td', {}, key), element('td', { colSpan: 2 }, text));
 byId('origin').append(headOf(['', ...roles]), element('tbody', {},
-  [...new Set(origins.flatMap(Object.keys))].map(key => {
-    const line = row([key, origins[0][key], origins[1][key]]);
-    line.className = origins[0][key] === origins[1][key] ? '' : 'differs';
-    return line;
-  }),
-  Object.entries(ofBoth).map(([key, text]) =>
-    element('tr', {}, element('td', {}, key), element('td', { colSpan: 2 }, text)))));
+  originKeys.filter(differs).map(key =>
+    Object.assign(row([key, origins[0][key], origins[1][key]]), { className: 'differs' })),
+  originKeys.filter(key => !differs(key)).map(key => sharedRow([key, origins[0][key]])),
+  Object.entries(ofBoth).map(sharedRow)));
 
 document.title = cleanText(`${page.title}: ${page.verdict}`);
 byId('title').textContent = cleanText(page.title);
 byId('summary').textContent = cleanText(page.verdict);
+byId('names').textContent = cleanText(page.pictures.map(({ role, name }) => `${role}: ${name}`).join('; '));
 byId('summary').className = report.passed ? 'passed' : '';
 if (width < report.width || height < report.height) {
   byId('part').hidden = false;
-  byId('part').textContent = `The pictures have ${report.width} by ${report.height} pixels. This page has ${width} by ${height} ` +
-    `of them, around the largest difference: columns ${x0} to ${x1 - 1}, rows ${y0} to ${y1 - 1}. Figures are of the whole.`;
+  byId('part').textContent = `The pictures have ${report.width} by ${report.height} pixels. This page has ${width} ` +
+    `by ${height} of them, around the largest difference: columns ${x0} to ${x1 - 1}, rows ${y0} to ${y1 - 1}. ` +
+    'Figures are of the whole.';
 }
 setView('first');
 setStops(0);

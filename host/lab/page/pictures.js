@@ -58,3 +58,15 @@ function nextDifference(ulps, from, step) {
   }
   return -1;
 }
+
+// Index of the first pixel with the largest difference; -1: none.
+function largestDifference(a, b) {
+  let index = -1;
+  for (let i = 0, value = 0, largest = 0; i < a.width * a.height; ++i)
+    for (let k = 0; k < a.channels; ++k, ++value) {
+      if (a.bits[value] === b.bits[value]) continue;
+      const size = Math.abs(differenceOf(a.values[value], b.values[value], 1));
+      if (size > largest) [index, largest] = [i, size];
+    }
+  return index;
+}

@@ -1,7 +1,7 @@
 // Tone curves of host/image/tone_curve.h, from linear light to levels of 0 to 255.
 
-// Levels by a monotonous encoding of [0, 1], of which `decoded` is the inverse. Level i is shown from threshold i - 1 on; a
-// table of pieces, 32 a power of two from 2^-20 on, has the level at the lower end of each.
+// Levels by a monotonous encoding of [0, 1], of which `decoded` is the inverse. Level i is shown from threshold i - 1
+// on; a table of pieces, 32 a power of two from 2^-20 on, has the level at the lower end of each.
 function levelFinder(decoded) {
   const number = new Float32Array(1);
   const bits = new Uint32Array(number.buffer);
