@@ -1,6 +1,7 @@
 // The page of a comparison: its JSON has the bits of both pictures, and its script computes as the program does.
 #include "host/lab/comparison_html.h"
 
+#include "host/image/comparison_json.h"
 #include "host/image/tone_map.h"
 #include "host/image/ulp_histogram.h"
 #include "tests/fixtures/page_fixture.h"
@@ -18,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace hyalite::core {
 namespace {
@@ -77,35 +79,42 @@ struct Pair {
 };
 
 ComparisonPage pageOf(const Pair &pair, const ImageComparison &comparison) {
-    nlohmann::ordered_json report{{"width", pair.a.width()}, {"height", pair.a.height()}};
+    nlohmann::ordered_json report = comparisonToJson(comparison, pair.a, pair.b);
     return {.title = "a and b",
             .verdict = "NOT equal",
             .first = {"first", "cpu", pair.a},
             .second = {"second", "device", pair.b},
             .comparison = comparison,
-            .report = report};
+            .report = std::move(report)};
 }
 
 ImageComparison comparisonOf(const Pair &pair) { return compareImages(pair.a, pair.b, Encoding::Linear); }
 
-/// What tests/lab/page_numbers.js prints of a page, for all tone curves.
-std::vector<std::vector<std::int64_t>> rowsByScript(const std::string &page, double stops) {
+/// What a script of tests/lab/ prints of a page; the words follow the name of its file.
+std::string runScript(const std::string &script, const std::string &page, const std::string &words) {
     const std::filesystem::path file =
         std::filesystem::path(::testing::TempDir()) /
         fmt::format("comparison-{}.html", ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::ofstream(file) << page;
-    std::string command =
-        fmt::format("node '{}/tests/lab/page_numbers.js' '{}' {}", HYALITE_SOURCE_DIR, file.string(), stops);
-    for (const auto &[name, curve] : toneCurveNames)
-        command += fmt::format(" {}", name);
-    FILE *const pipe = popen((command + " 2>&1").c_str(), "r");
+    FILE *const pipe = popen(
+        fmt::format("node '{}/tests/lab/{}' '{}' {} 2>&1", HYALITE_SOURCE_DIR, script, file.string(), words)
+            .c_str(),
+        "r");
     std::string text;
     for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
         text += static_cast<char>(letter);
     EXPECT_EQ(pclose(pipe), 0) << text;
     std::filesystem::remove(file);
+    return text;
+}
+
+/// Of each pixel, by all tone curves.
+std::vector<std::vector<std::int64_t>> numbersByScript(const std::string &page, double stops) {
+    std::string words = fmt::format("{}", stops);
+    for (const auto &[name, curve] : toneCurveNames)
+        words += fmt::format(" {}", name);
     std::vector<std::vector<std::int64_t>> rows;
-    std::istringstream lines(text);
+    std::istringstream lines(runScript("page_numbers.js", page, words));
     for (std::string line; std::getline(lines, line);) {
         std::istringstream numbers(line);
         rows.emplace_back();
@@ -113,6 +122,11 @@ std::vector<std::vector<std::int64_t>> rowsByScript(const std::string &page, dou
             rows.back().push_back(number);
     }
     return rows;
+}
+
+void expectParts(const std::string &text, const std::vector<std::string> &parts) {
+    for (const std::string &part : parts)
+        EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
 }
 
 TEST(ComparisonHtml, HoldsTheBitsOfBothPictures) {
@@ -208,7 +222,7 @@ TEST(ComparisonHtml, ItsScriptComputesAsTheProgramDoes) {
     const ImageComparison comparison = comparisonOf(pair);
     const std::string page = comparisonHtml(pageOf(pair, comparison));
     for (const double stops : {0.0, 1.75, -3.0}) {
-        const auto rows = rowsByScript(page, stops);
+        const auto rows = numbersByScript(page, stops);
         ASSERT_EQ(rows.size(), pair.a.pixels().size());
         std::size_t column = 0;
         for (const auto &[name, curve] : toneCurveNames) {
@@ -227,6 +241,52 @@ TEST(ComparisonHtml, ItsScriptComputesAsTheProgramDoes) {
             EXPECT_EQ(rows[i].at(column), distance) << i;
         }
     }
+}
+
+TEST(ComparisonHtml, ShowsFiguresOriginsAndTheFirstStepThatDiffers) {
+    Pair pair;
+    pair.a.at(0, 1) = pair.b.at(0, 1); // two pixels differ
+    pair.a.at(39, 23) = pair.b.at(39, 23);
+    const ImageComparison comparison = comparisonOf(pair);
+    ComparisonPage page = pageOf(pair, comparison);
+    page.corner = {100, 200};
+    page.first.origin = {{"driver", "one"}, {"arithmetic", "IEEE"}};
+    page.second.origin = {{"driver", "two"}, {"arithmetic", "IEEE"}};
+    page.report["commandLine"] = "hyalite compare";
+    page.report["settings"] = {{"spp", 4}};
+    page.report["gates"] = {{{"option", "--max-flip"}, {"limit", 0.5}, {"value", 0.25}, {"passed", true}}};
+    page.report["divergence"] = {{"pixel", {103, 205}},      {"sample", 1},  {"bounce", 2},
+                                 {"quantity", "throughput"}, {"first", "x"}, {"second", "y"}};
+    page.report["traces"] = {
+        {"step", 1},
+        {"first", {{0, "hit", "sphere 1"}, {2, "throughput", "x"}}},
+        {"second", {{0, "hit", "sphere 1"}, {2, "throughput", "y"}, {2, "hit", "none"}}}};
+    const std::string html = comparisonHtml(page);
+    const std::string text = runScript("page_text.js", html, "");
+    expectParts(text,
+                {"a and b: NOT equal\n", "names: first: cpu; second: device\n", "differing pixels 2 of 960",
+                 "differing values 4 of 2880", "--max-flip 0.5 passed, 0.25",
+                 fmt::format("PSNR {:.2f} dB", comparison.pixels.psnrDecibels()),
+                 fmt::format("HDR-FLIP, mean {:.6f}", comparison.flip.mean),
+                 "reading: Pixel (103, 205): 1 ULP at most", "driver one two", "arithmetic IEEE",
+                 "commandLine hyalite compare", "settings.spp 4", "gamma srgb aces agx",
+                 "Pixel (103, 205), sample 1, bounce 2: throughput first: x second: y",
+                 "0 hit sphere 1 sphere 1 2 throughput x y 2 hit – none"});
+    // All keys can be pressed; the second difference is the largest, and follows the first.
+    for (const char *keys : {"1 2 3 4 5 6 t t t t + - 0 z [ ] , . ArrowLeft ' ' 0 l", "n", "p"})
+        expectParts(runScript("page_text.js", html, keys),
+                    {"reading: Pixel (109, 207): ", "G 0.", "-1 0xbf800000", "100 0x42c80000"});
+    EXPECT_EQ(text.find("undefined"), std::string::npos) << text;
+}
+
+TEST(ComparisonHtml, ShowsEqualPictures) {
+    Pair pair;
+    pair.b = pair.a;
+    const ImageComparison comparison = comparisonOf(pair);
+    const std::string text =
+        runScript("page_text.js", comparisonHtml(pageOf(pair, comparison)), "2 3 4 5 6 n l");
+    expectParts(text, {"differing values 0 of 2880", "PSNR ∞ dB", "SSIM not available",
+                       "histogram: ULP values share  0 2880 100.000 %"});
 }
 
 TEST(ComparisonHtml, NeedsNothingElseAndNamesMayHoldAnything) {
@@ -251,6 +311,8 @@ TEST(ComparisonHtml, NeedsNothingElseAndNamesMayHoldAnything) {
     for (std::size_t i = html.find("</script"); i != std::string::npos; i = html.find("</script", i + 1))
         ++count;
     EXPECT_EQ(count, 2u);
+    expectParts(runScript("page_text.js", html, ""),
+                {"title: </script><!--<script>&\"'\ufffd\ufffd\ufffd]]>\n", "scene </script>"});
 }
 
 } // namespace
