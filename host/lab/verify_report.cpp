@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -82,9 +84,10 @@ std::string describe(const FilmDifference &difference) {
 std::string verificationToJunit(std::span<const DeviceVerdict> devices) {
     std::vector<TestSuite> suites;
     for (const DeviceVerdict &device : devices) {
-        TestSuite &suite = suites.emplace_back(device.description);
+        TestSuite suite{device.description, {}};
         for (const FilmVerdict &film : device.films)
             suite.cases.push_back(toCase(device, film));
+        suites.push_back(std::move(suite));
     }
     return junitText("hyalite verify", suites);
 }

@@ -134,6 +134,7 @@ std::optional<Divergence> findFirst(const std::vector<TraceEvent> &a, const std:
 std::vector<TraceStep> describeTrace(const std::vector<TraceEvent> &trace, std::uint32_t firstTriangleId,
                                      const glm::dvec3 &origin) {
     std::vector<TraceStep> steps;
+    steps.reserve(trace.size());
     for (const TraceEvent &event : trace)
         steps.push_back({event.rayDepth, nameOf(event.quantity), valueText(event, firstTriangleId, origin)});
     return steps;
