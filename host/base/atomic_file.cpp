@@ -112,11 +112,12 @@ int openUnnamed(const fs::path &folder) {
     return descriptor;
 }
 
-/// A file in memory for what goes to standard output, or -1.
-int openForStandardOutput(const fs::path &givenPath) {
-    if (isatty(STDOUT_FILENO) != 0)
-        refuse(givenPath, "standard output is a terminal; lead it into a file or a program (> FILE)");
-    return memfd_create("hyalite", MFD_CLOEXEC);
+/// The descriptor of a file in memory.
+int openInMemory(const fs::path &givenPath) {
+    const int descriptor = memfd_create("hyalite", MFD_CLOEXEC);
+    if (descriptor < 0)
+        refuseWithErrno(givenPath, "no file can be created in memory", errno);
+    return descriptor;
 }
 
 /// fsync; a file system without support for it counts as success. Returns errno, or 0.
@@ -161,9 +162,9 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
     if (target.empty())
         refuse(target, "the name is empty; name a file");
     if (isStandardStream(target)) {
-        descriptor_ = openForStandardOutput(target);
-        if (descriptor_ < 0)
-            refuseWithErrno(target, "no file can be created in memory", errno);
+        if (isatty(STDOUT_FILENO) != 0)
+            refuse(target, "standard output is a terminal; lead it into a file or a program (> FILE)");
+        descriptor_ = openInMemory(target);
         return;
     }
     std::error_code error; // errors in the path show when the file is created
@@ -184,6 +185,13 @@ AtomicFile::AtomicFile(const fs::path &target, TemporaryFile kind) : givenPath_(
                         fmt::format("no file can be created in '{}'", targetPath_.parent_path().string()),
                         errorNumber);
     }
+}
+
+AtomicFile AtomicFile::inMemory(const fs::path &path) {
+    AtomicFile file;
+    file.givenPath_ = path;
+    file.descriptor_ = openInMemory(path);
+    return file;
 }
 
 AtomicFile::AtomicFile(AtomicFile &&other) noexcept
@@ -243,7 +251,7 @@ void AtomicFile::writeAt(std::uint64_t offsetBytes, std::span<const std::byte> b
     }
 }
 
-void AtomicFile::pourIntoStandardOutput() {
+void AtomicFile::readBack(const std::function<void(std::span<const std::byte>)> &take) const {
     std::array<std::byte, std::size_t{1} << 16> buffer;
     off_t offset = 0;
     while (true) {
@@ -251,17 +259,23 @@ void AtomicFile::pourIntoStandardOutput() {
         if (count < 0)
             refuseWithErrno(givenPath_, "reading what was written", errno);
         if (count == 0)
-            break;
+            return;
         offset += count;
-        writeAll(STDOUT_FILENO, std::span(buffer).first(static_cast<std::size_t>(count)));
+        take(std::span(buffer).first(static_cast<std::size_t>(count)));
     }
-    discard();
+}
+
+std::vector<std::byte> AtomicFile::contents() const {
+    std::vector<std::byte> bytes;
+    readBack([&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); });
+    return bytes;
 }
 
 void AtomicFile::commit() {
     assert(descriptor_ >= 0);
     if (isStandardStream(givenPath_)) {
-        pourIntoStandardOutput();
+        readBack([this](std::span<const std::byte> part) { writeAll(STDOUT_FILENO, part); });
+        discard();
         return;
     }
     if (const int errorNumber = synchronize(descriptor_); errorNumber != 0)

@@ -11,8 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace hyalite::core {
 
@@ -33,6 +35,10 @@ class AtomicFile {
     /// is a terminal.
     explicit AtomicFile(const std::filesystem::path &target, TemporaryFile kind = TemporaryFile::Automatic);
 
+    /// A file in memory, which is never committed, for who wants the bytes; `path` is the name in messages. Throws
+    /// Error{OutputNotWritten}.
+    [[nodiscard]] static AtomicFile inMemory(const std::filesystem::path &path);
+
     AtomicFile(AtomicFile &&other) noexcept;
     AtomicFile &operator=(AtomicFile &&other) noexcept;
     AtomicFile(const AtomicFile &) = delete;
@@ -49,6 +55,9 @@ class AtomicFile {
     /// position of write() does not change. Throws Error{OutputNotWritten} likewise.
     void writeAt(std::uint64_t offsetBytes, std::span<const std::byte> bytes);
 
+    /// What was written to a file in memory. Throws Error{OutputNotWritten}.
+    [[nodiscard]] std::vector<std::byte> contents() const;
+
     /// Syncs the bytes to disk and renames the file over the target. Call it at most once, as the last operation.
     /// Throws Error{OutputNotWritten}.
     void commit();
@@ -57,12 +66,13 @@ class AtomicFile {
     [[nodiscard]] const std::filesystem::path &path() const { return givenPath_; }
 
   private:
+    AtomicFile() = default;
     /// Calls `create` with unused names in the target's folder until it makes one of them a file, and keeps that name.
     /// `create` returns whether it did and sets errno if not. Returns errno, or 0.
     template <class Create> [[nodiscard]] int claimName(const Create &create);
     void discard() noexcept;
     void writeAll(int descriptor, std::span<const std::byte> bytes) const;
-    void pourIntoStandardOutput();
+    void readBack(const std::function<void(std::span<const std::byte>)> &take) const;
 
     std::filesystem::path givenPath_;
     std::filesystem::path targetPath_;    ///< absolute, links followed

@@ -35,11 +35,12 @@ glm::dvec3 toVector(const std::vector<double> &values) { return {values[0], valu
 
 /// The point to look at: that of the options or, if the camera of a bare mesh is moved, the centre of the mesh, because
 /// no scene file gives a direction.
-std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded) {
+std::optional<glm::dvec3> chooseTarget(const SceneOptions &options, const LoadedScene &loaded,
+                                       const std::optional<Bounds> &framed) {
     if (!options.lookAt.empty())
         return toVector(options.lookAt) - loaded.scene.origin;
-    if (loaded.autoFramed && !options.cameraPosition.empty())
-        return triangleBounds(loaded.scene, loaded.file.string()).centre();
+    if (framed && !options.cameraPosition.empty())
+        return framed->centre();
     return std::nullopt;
 }
 
@@ -51,14 +52,15 @@ glm::dvec3 chooseUp(const SceneOptions &options) {
 }
 
 /// Moves the camera. A new position keeps the direction; a new target keeps the position.
-void moveCamera(const SceneOptions &options, const LoadedScene &loaded, Camera &camera) {
+void moveCamera(const SceneOptions &options, const LoadedScene &loaded, const std::optional<Bounds> &framed,
+                Camera &camera) {
     if (!options.cameraPosition.empty())
         camera.position = toVector(options.cameraPosition) - loaded.scene.origin;
     if (!options.up.empty())
         camera.up = toVector(options.up);
     if (!limits::directionLength.contains(glm::length(camera.up)))
         throw OverrideError("up", "found a vector without length; allowed: any other vector");
-    if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded)) {
+    if (const std::optional<glm::dvec3> target = chooseTarget(options, loaded, framed)) {
         camera.direction = *target - camera.position;
         if (!limits::directionLength.contains(glm::length(camera.direction)))
             throw OverrideError("look-at", "found the camera's own position; allowed: any other point");
@@ -170,21 +172,51 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
     camera.height = options.height.value_or(height);
 }
 
-/// The size of the image and the field of view.
+/// Throws for a lens that the camera cannot have.
+void requirePerspective(const Camera &camera, std::string_view option, std::string_view lacking) {
+    if (camera.kind != CameraKind::Perspective)
+        throw OverrideError(std::string(option),
+                            fmt::format("found a camera of the type {}, which has no {}; allowed: with a "
+                                        "perspective one",
+                                        nameIn(cameraNames, camera.kind), lacking));
+}
+
+/// The size of the image, the field of view and the lens.
 void overrideLens(const SceneOptions &options, LoadedScene &loaded) {
     Camera &camera = loaded.scene.camera;
     overrideSize(options, loaded.aspectRatio, camera);
-    if (options.fovDegrees && camera.kind != CameraKind::Perspective)
-        throw OverrideError("fov", fmt::format("found a camera of the type {}, which has no field of "
-                                               "view; allowed: with a perspective one",
-                                               nameIn(cameraNames, camera.kind)));
+    if (options.fovDegrees)
+        requirePerspective(camera, "fov", "field of view");
+    if (options.aperture)
+        requirePerspective(camera, "aperture", "lens");
+    if (options.focusDistance)
+        requirePerspective(camera, "focus-distance", "lens");
     if (loaded.verticalFovDegrees)
         camera.horizontalFovDegrees =
             horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
+    camera.aperture = options.aperture.value_or(camera.aperture);
+    camera.focusDistance = options.focusDistance.value_or(camera.focusDistance);
 }
 
-void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
+/// Places the camera: that of the file, or one that sees all of what is framed, with lights where it has none.
+void placeCamera(const SceneOptions &options, const std::optional<Bounds> &framed, LoadedScene &loaded) {
+    overrideLens(options, loaded);
+    Camera &camera = loaded.scene.camera;
+    if (framed) {
+        const Camera lens = camera;
+        camera = frameCamera(*framed, lens.width, lens.height, lens.horizontalFovDegrees, chooseUp(options));
+        camera.aperture = lens.aperture;
+        camera.focusDistance = lens.focusDistance;
+    }
+    moveCamera(options, loaded, framed, camera);
+    const bool isMoved = !options.up.empty() || !options.cameraPosition.empty();
+    if (framed && loaded.isAutoLit && isMoved)
+        loaded.scene.lights = frameLights(*framed, chooseUp(options), camera.position);
+}
+
+void applyOverrides(const SceneOptions &options, PreparedScene &prepared) {
+    LoadedScene &loaded = prepared.loaded;
     Scene &scene = loaded.scene;
     RenderSettings &settings = loaded.settings;
     // A mesh without lights of its own is lit by an environment that is given.
@@ -198,19 +230,11 @@ void applyOverrides(const SceneOptions &options, LoadedScene &loaded) {
     }
     requireEffect(options, settings);
     overrideEnvironment(options, loaded);
-
-    overrideLens(options, loaded);
-    if (!loaded.autoFramed) {
-        moveCamera(options, loaded, scene.camera);
-        return;
+    if (loaded.autoFramed) {
+        prepared.framed = triangleBounds(scene, loaded.file.string());
+        prepared.givenLights = scene.lights;
     }
-    Camera &camera = scene.camera;
-    const Bounds bounds = triangleBounds(scene, loaded.file.string());
-    camera = frameCamera(bounds, camera.width, camera.height, camera.horizontalFovDegrees, chooseUp(options));
-    moveCamera(options, loaded, camera);
-    const bool isMoved = !options.up.empty() || !options.cameraPosition.empty();
-    if (loaded.isAutoLit && isMoved)
-        scene.lights = frameLights(bounds, chooseUp(options), camera.position);
+    placeCamera(options, prepared.framed, loaded);
 }
 
 /// The override that decides the orientation of the camera, or empty.
@@ -372,7 +396,7 @@ PreparedScene prepareScene(const SceneOptions &options, Source source, Observer 
     }
     prepared.givenCamera = prepared.loaded.scene.camera;
     prepared.givenSettings = prepared.loaded.settings;
-    applyOverrides(options, prepared.loaded);
+    applyOverrides(options, prepared);
     tellWarnings(prepared.loaded, observer);
     Scene &scene = prepared.loaded.scene;
     const RenderSettings &settings = prepared.loaded.settings;
@@ -416,13 +440,7 @@ bool isOtherView(const PreparedScene &prepared, const SceneOptions &options, con
                              options.load.camera == others.load.camera &&
                              options.load.gltfScene == others.load.gltfScene &&
                              options.load.timeSeconds == others.load.timeSeconds;
-    // What is framed by itself is lit by where its camera is.
-    const bool hasSameFrame =
-        !prepared.loaded.autoFramed ||
-        (!options.sizeShare && !others.sizeShare &&
-         isSame(&SceneOptions::width, &SceneOptions::height, &SceneOptions::fovDegrees,
-                &SceneOptions::cameraPosition, &SceneOptions::lookAt, &SceneOptions::up));
-    return hasSameTree && hasSameLoad && hasSameFrame &&
+    return hasSameTree && hasSameLoad &&
            isSame(&SceneOptions::scene, &SceneOptions::document, &SceneOptions::background,
                   &SceneOptions::environment, &SceneOptions::environmentScale,
                   &SceneOptions::environmentRotateDegrees, &SceneOptions::isFlattened,
@@ -436,11 +454,11 @@ void changeView(PreparedScene &prepared, const SceneOptions &options) {
     loaded.settings.integrator = integrator;
     overrideSettings(options, loaded.settings);
     requireEffect(options, loaded.settings);
-    if (!loaded.autoFramed) {
-        loaded.scene.camera = prepared.givenCamera;
-        overrideLens(options, loaded);
-        moveCamera(options, loaded, loaded.scene.camera);
-    }
+    const std::vector<Light> lights = loaded.scene.lights;
+    loaded.scene.camera = prepared.givenCamera;
+    if (prepared.framed && loaded.isAutoLit) // its lights follow the camera
+        loaded.scene.lights = prepared.givenLights;
+    placeCamera(options, prepared.framed, loaded);
     validateWithOverrides(options, loaded,
                           [&](const std::string &name) { validateCamera(loaded.scene.camera, name); });
     prepared.crop = chooseCrop(options.crop, loaded.scene.camera);
@@ -448,6 +466,13 @@ void changeView(PreparedScene &prepared, const SceneOptions &options) {
         shrink(*options.sizeShare, loaded.scene.camera, prepared.crop);
     prepared.views = viewsOf(options, loaded);
     packCamera(loaded.scene, prepared.packed);
+    const auto haveSamePlaces = [](const Light &a, const Light &b) {
+        return a.position == b.position && a.direction == b.direction;
+    };
+    if (!std::ranges::equal(lights, loaded.scene.lights, haveSamePlaces)) {
+        packLights(loaded.scene, loaded.settings.lightChoice, prepared.packed);
+        prepared.arraysHash = prepared.packed.arraysHash();
+    }
 }
 
 Provenance provenanceOf(const PreparedScene &scene, const std::string &commandLine) {

@@ -9,6 +9,7 @@
 #include "host/import/scene_document.h"
 #include "host/packing/packed_scene.h"
 #include "host/report/provenance.h"
+#include "host/scene/framing.h"
 #include "host/scene/instances.h"
 #include "host/scene/light_sources.h"
 #include "host/scene/settings_table.h"
@@ -32,6 +33,8 @@ struct SceneOptions {
     SettingChanges settings;
     std::vector<Integrator> views{}; ///< rendered as layers, too: settings that they use have an effect
     std::optional<double> fovDegrees;
+    std::optional<double> aperture{};
+    std::optional<double> focusDistance{};
     std::vector<double> cameraPosition;
     std::vector<double> lookAt;
     std::vector<double> up;
@@ -67,9 +70,11 @@ struct PreparedScene {
     std::uint64_t arraysHash = 0; ///< of `packed`
     Crop crop;
     LightSources sources;
-    Camera givenCamera;              ///< as the scene has it, without overrides
-    RenderSettings givenSettings;    ///< likewise
-    std::vector<Integrator> views{}; ///< to be rendered as layers: what was asked for, and what alpha needs
+    std::optional<Bounds> framed{};   ///< what the camera sees, where the file has none
+    Camera givenCamera;               ///< as the scene has it, without overrides
+    std::vector<Light> givenLights{}; ///< likewise, where they are those of a framed mesh
+    RenderSettings givenSettings;     ///< likewise
+    std::vector<Integrator> views{};  ///< to be rendered as layers: what was asked for, and what alpha needs
     double loadSeconds = 0.0;
     double buildSeconds = 0.0;
 

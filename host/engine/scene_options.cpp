@@ -17,6 +17,16 @@
 
 namespace hyalite::core {
 
+std::string textOf(const OptionValue &value) {
+    if (const bool *flag = std::get_if<bool>(&value))
+        return *flag ? "true" : "false";
+    if (const double *number = std::get_if<double>(&value))
+        return fmt::format("{}", *number);
+    if (const auto *numbers = std::get_if<std::vector<double>>(&value))
+        return fmt::format("{}", fmt::join(*numbers, ","));
+    return std::get<std::string>(value);
+}
+
 namespace {
 
 /// The allowed range of a crop depends on the image.
@@ -47,9 +57,13 @@ constexpr auto table = std::to_array<SceneOption>({
      "framed and lit as standing so"},
     {"fov", viewGroup, "NUMBER", Number{of<&SceneOptions::fovDegrees>, limits::horizontalFovDegrees},
      "horizontal field of view in degrees"},
+    {"aperture", viewGroup, "NUMBER", Number{of<&SceneOptions::aperture>, limits::aperture},
+     "diameter of the lens, in the scene's units: what is out of focus blurs; 0: a pinhole"},
+    {"focus-distance", viewGroup, "NUMBER", Number{of<&SceneOptions::focusDistance>, limits::focusDistance},
+     "how far away it is sharp, along the view direction"},
     {"background", viewGroup, "R,G,B", Point{of<&SceneOptions::background>, limits::radiance, 3},
      "radiance of rays that leave the scene, linear RGB, instead of the scene's environment"},
-    {"environment", viewGroup, "FILE", TextOption{of<&SceneOptions::environment>, "the name of a file"},
+    {"environment", viewGroup, "FILE", TextOption{of<&SceneOptions::environment>, "the name of a file", true},
      "light from all around, instead of the scene's: .hdr, .exr, .pfm, .png or .jpg, by longitude and "
      "latitude; or neutral, the studio that lights glTF files without lights"},
     {"environment-scale", viewGroup, "NUMBER",
@@ -79,17 +93,6 @@ constexpr std::array<Axis, 6> axes{{{"x", {1, 0, 0}},
                                     {"-x", {-1, 0, 0}},
                                     {"-y", {0, -1, 0}},
                                     {"-z", {0, 0, -1}}}};
-
-/// As the user would write it.
-std::string textOf(const OptionValue &value) {
-    if (const bool *flag = std::get_if<bool>(&value))
-        return *flag ? "true" : "false";
-    if (const double *number = std::get_if<double>(&value))
-        return fmt::format("{}", *number);
-    if (const auto *numbers = std::get_if<std::vector<double>>(&value))
-        return fmt::format("{}", fmt::join(*numbers, ","));
-    return std::get<std::string>(value);
-}
 
 [[noreturn]] void refuse(std::string_view name, const OptionValue &found, std::string_view allowed) {
     throw OverrideError(std::string(name), refusalText(textOf(found), allowed));
@@ -208,6 +211,12 @@ void setSceneOption(SceneOptions &options, std::string_view name, const OptionVa
         throw OverrideError(std::string(name), fmt::format("is no setting{}", suggestion(name, names)));
     }
     options.settings.push_back(std::visit(SettingReader{*setting, value}, setting->value));
+}
+
+bool namesFile(std::string_view name) {
+    const auto row = std::ranges::find(table, name, &SceneOption::name);
+    const auto *text = row != table.end() ? std::get_if<TextOption>(&row->value) : nullptr;
+    return text != nullptr && text->isFile;
 }
 
 std::vector<std::string_view> sceneOptionNames() {

@@ -32,6 +32,7 @@ template <class Number> struct NumbersOption {
 struct TextOption {
     std::string &(*member)(SceneOptions &);
     std::string_view allowed; ///< in words
+    bool isFile = false;
 };
 /// A text such as "25%", which becomes a share in (0, 1].
 struct PercentOption {
@@ -79,8 +80,14 @@ template <class Value>
     return {[member, value](RenderSettings &settings) { settings.*member = value; }, &setting};
 }
 
+/// Whether the option of this name is a file, which is read.
+[[nodiscard]] bool namesFile(std::string_view name);
+
 /// The value of an option or a setting, as programs have it.
 using OptionValue = std::variant<bool, double, std::string, std::vector<double>>;
+
+/// As the user would write it.
+[[nodiscard]] std::string textOf(const OptionValue &value);
 
 /// Sets the option or setting of this name, as the command line has it. Throws OverrideError for unknown names, and for
 /// values that are not allowed.

@@ -93,8 +93,9 @@ TEST(OtherViews, AreAsIfPreparedAnew) {
         {{"camera-position", std::vector{1.0, 2.0, 30.0}}, {"look-at", std::vector{0.0, 1.0, 0.0}}},
         {{"scale", std::string("50%")}, {"crop", std::vector{3.0, 9.0, 0.0, 20.0}}},
         {{"fov", 30.0}, {"up", std::string("x")}},
+        {{"aperture", 0.5}, {"focus-distance", 20.0}},
         {{"max-depth", 2.0}, {"sampler", std::string("centre")}, {"exposure", 1.0}}};
-    for (const std::string scene : {"spheres", "spheres-nested", "cornell"}) {
+    for (const std::string scene : {"spheres", "spheres-nested", "cornell", "cat"}) {
         PreparedScene moved = prepareScene(optionsOf(scene, {}), Source::Dropped, nobody());
         SceneOptions before = optionsOf(scene, {});
         for (const Options &view : views) {
