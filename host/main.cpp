@@ -146,6 +146,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     app.set_help_flag("-h,--help", "print this page");
     app.formatter(std::make_shared<HelpFormatter>());
     addRenderCommand(app, context);
+    addViewCommand(app, context);
     addMergeCommand(app, context);
     addCompareCommand(app, context);
     addVerifyCommand(app, context);

@@ -28,5 +28,6 @@ void addNewCommand(CLI::App &app, CommandContext &context);
 void addProfileCommand(CLI::App &app, CommandContext &context);
 void addToneMapCommand(CLI::App &app, CommandContext &context);
 void addVerifyCommand(CLI::App &app, CommandContext &context);
+void addViewCommand(CLI::App &app, CommandContext &context);
 
 } // namespace hyalite::core
