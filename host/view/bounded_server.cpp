@@ -160,6 +160,15 @@ BoundedServer::BoundedServer() {
     set_keep_alive_timeout(idleSeconds);
 }
 
+int BoundedServer::bindTo(const std::string &address, int port) {
+    constexpr int waiting =
+        128; // the library has 5 connections wait, of which a page has more; others are a second late
+    const int bound = port == 0 ? bind_to_any_port(address) : bind_to_port(address, port) ? port : -1;
+    if (bound >= 0)
+        ::listen(svr_sock_, waiting);
+    return bound;
+}
+
 void BoundedServer::stopAll() {
     isStopping_ = true;
     stop();

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <string>
 
 namespace hyalite::core {
 
@@ -23,6 +24,8 @@ class BoundedServer : public httplib::Server {
 
     BoundedServer();
 
+    /// Binds it to a port, any free one for 0, and returns that; -1 where it cannot be had.
+    [[nodiscard]] int bindTo(const std::string &address, int port);
     /// Ends listen_after_bind() and all connections.
     void stopAll();
     [[nodiscard]] bool isStopping() const { return isStopping_; }

@@ -89,9 +89,7 @@ std::string hostText(const std::string &address) {
 
 ViewSite::ViewSite(Viewer &viewer, const std::string &address, int port)
     : viewer_(viewer), address_(address), port_([&] {
-          const int bound = port == 0                             ? server_.bind_to_any_port(address)
-                            : server_.bind_to_port(address, port) ? port
-                                                                  : -1;
+          const int bound = server_.bindTo(address, port);
           if (bound < 0)
               throw Error(ErrorKind::Usage,
                           fmt::format("cannot listen at {}:{}: another program may have this port; choose "

@@ -572,6 +572,7 @@ nlohmann::ordered_json Viewer::state() const {
     const Lock lock(mutex_);
     nlohmann::ordered_json json = sceneState_;
     json["view"] = job_.view;
+    json["isChanging"] = wished_ != applied_ || job_.number != jobNumber_; // to another view
     json["show"] = shown_ ? nlohmann::json(nameOf(*shown_)) : nlohmann::json();
     json["clean"] = isClean_;
     json["canBeClean"] = keepsDenoisingData([this] {
