@@ -36,8 +36,8 @@ const state = { view: 'first', curve: isLinear ? 'gamma' : 'display', stops: 0, 
                 x: width / 2, y: height / 2, zoom: 1, pixel: null };
 
 const views = {
-  first: { name: roles[0], levels: () => toneMapped(first, state.stops, state.curve) },
-  second: { name: roles[1], levels: () => toneMapped(second, state.stops, state.curve) },
+  first: { name: roles[0], levels: () => toneMap(first.values, first.channels, state.curve, state.stops) },
+  second: { name: roles[1], levels: () => toneMap(second.values, second.channels, state.curve, state.stops) },
   flip: { name: 'FLIP', levels: () => errorLevels(flip.length, i => flip[i], colours) },
   difference: { name: 'difference', levels: () => differenceLevels(first, second, state.times) },
   ulps: { name: 'ULPs', levels: () => errorLevels(ulps.length, i => ulpError(ulps[i], largestUlps), colours) },

@@ -6,16 +6,6 @@ function decodedPicture(base64, width, height, channels) {
   return { width, height, channels, values: new Float32Array(buffer), bits: new Uint32Array(buffer) };
 }
 
-function toneMapped(picture, stops, curve) {
-  const { width, height, channels, values } = picture;
-  const levels = new Uint8ClampedArray(4 * width * height).fill(255);
-  const scale = 2 ** stops;
-  const map = toneCurves[curve];
-  for (let from = 0, to = 0; to < levels.length; from += channels, to += 4)
-    map(levels, to, values[from] * scale, values[from + 1] * scale, values[from + 2] * scale);
-  return levels;
-}
-
 // |b - a| times a number, by levels in proportion to it.
 function differenceLevels(a, b, times) {
   const levels = new Uint8ClampedArray(4 * a.width * a.height).fill(255);

@@ -46,8 +46,7 @@ function exposureNow() { return exposure ?? state.exposure; }
 function levelsOf(frame) {
     const key = `${element("tone").value} ${exposureNow()}`;
     if (frame.key !== key) {
-        frame.levels = new Uint8ClampedArray(4 * frame.width * frame.height);
-        toneMap(frame.pixels, element("tone").value, exposureNow(), frame.levels);
+        frame.levels = toneMap(frame.pixels, 3, element("tone").value, exposureNow());
         frame.key = key;
     }
     return frame.levels;

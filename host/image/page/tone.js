@@ -1,6 +1,5 @@
-// Tone mapping, as host/image/tone_map.cpp does it: the same levels, so that a page shows the pixels of a PNG. Numbers here
-// are the same doubles, and each operation is the same, in the same order.
-"use strict";
+// Tone mapping as host/image/tone_map.cpp does it, and with its levels, so that a page shows the pixels of a PNG: numbers
+// are the same doubles, and operations are the same, in the same order.
 
 const float64 = new Float64Array(1);
 const wordsOfFloat64 = new Uint32Array(float64.buffer);
@@ -38,6 +37,7 @@ function log2Portable(x) {
     return (isUpper ? exponent + 1 : exponent) + 2 * s * sum / Math.LN2;
 }
 
+const levelOf = display => display > 0 ? Math.floor(Math.min(display, 1) * 255 + 0.5) : 0;
 const clamp01 = x => Math.min(Math.max(x, 0), 1);
 const bounded = radiance => radiance > 0 ? Math.min(radiance, 2 ** 60) : 0; // NaN: 0
 
@@ -78,11 +78,13 @@ function agx(r, g, b) {
     return timesMatrix(agxOutset, x, y, z).map(clamp01);
 }
 
+// From exposed radiance to display values in [0, 1]; by `gamma` there are levels at once.
 const toneCurves = {
-    gamma: null, // by levelOfGamma()
-    srgb: (r, g, b) => [r, g, b].map(c => srgbEncoded(Math.min(c, 1))),
-    aces,
-    agx,
+    gamma: null,
+    srgb: (r, g, b) => [r, g, b].map(c => srgbEncoded(Math.min(bounded(c), 1))),
+    aces: (r, g, b) => aces(bounded(r), bounded(g), bounded(b)),
+    agx: (r, g, b) => agx(bounded(r), bounded(g), bounded(b)),
+    display: (r, g, b) => [r, g, b], // numbers that are encoded already
 };
 
 // The level of each of the first floats of a piece: of those with the same upper 16 bits; and where levels begin.
@@ -124,21 +126,22 @@ function levelOfGamma(product) {
     return level;
 }
 
-// Writes R, G, B and 255 of each pixel, whose three floats are linear radiance.
-function toneMap(pixels, curve, exposureStops, rgba) {
+// R, G, B and 255 of each pixel, whose first three values are linear radiance.
+function toneMap(values, channels, curve, exposureStops) {
+    const levels = new Uint8ClampedArray(values.length / channels * 4).fill(255);
     const scale = exp2Portable(Math.min(Math.max(exposureStops, -300), 300));
     const display = toneCurves[curve];
-    for (let from = 0, to = 0; from < pixels.length; from += 3, to += 4) {
+    for (let from = 0, to = 0; to < levels.length; from += channels, to += 4) {
+        const [r, g, b] = [values[from] * scale, values[from + 1] * scale, values[from + 2] * scale];
         if (display === null) {
-            rgba[to] = levelOfGamma(pixels[from] * scale);
-            rgba[to + 1] = levelOfGamma(pixels[from + 1] * scale);
-            rgba[to + 2] = levelOfGamma(pixels[from + 2] * scale);
-        } else {
-            const shown = display(bounded(pixels[from] * scale), bounded(pixels[from + 1] * scale),
-                                  bounded(pixels[from + 2] * scale));
-            for (let channel = 0; channel < 3; ++channel)
-                rgba[to + channel] = Math.floor(clamp01(shown[channel]) * 255 + 0.5);
+            levels[to] = levelOfGamma(r);
+            levels[to + 1] = levelOfGamma(g);
+            levels[to + 2] = levelOfGamma(b);
+            continue;
         }
-        rgba[to + 3] = 255;
+        const shown = display(r, g, b);
+        for (let channel = 0; channel < 3; ++channel)
+            levels[to + channel] = levelOf(shown[channel]);
     }
+    return levels;
 }
