@@ -37,7 +37,7 @@ struct DenoiseOptions {
 
 /// Throws Error{Usage} for an option that the format of the output has not.
 void requireOptions(const DenoiseOptions &options) {
-    requireFileOptions({.tone = options.tone}, options.output);
+    requireFileOptions({.tone = options.tone}, imageFormatOf(options.output), options.output);
     if (options.exposureStops && imageFormatOf(options.output) != ImageFormat::Png)
         throw Error(ErrorKind::Usage,
                     fmt::format("--exposure is for .png files: the output is {}, which holds "

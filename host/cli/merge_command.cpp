@@ -243,7 +243,7 @@ ExitCode runMerge(const MergeOptions &options, const std::string &commandLine) {
     const ImageFormat format = imageFormatOf(options.output);
     if (options.auditSeed && !options.auditPercent)
         throw Error(ErrorKind::Usage, "--audit-seed needs --audit PERCENT");
-    requireFileOptions(options.file, options.output);
+    requireFileOptions(options.file, format, options.output);
     requireDistinctFiles({{"--output", options.output}}, options.parts);
     AtomicFile file(options.output);
     std::unique_ptr<Display> display;

@@ -134,8 +134,7 @@ std::string_view givenOption(const FileRequest &file) {
     return file.tone ? "--tone" : file.isHalf ? "--half" : file.compression ? "--exr-compression" : "";
 }
 
-void requireFileOptions(const FileRequest &file, const std::string &output) {
-    const ImageFormat format = imageFormatOf(output);
+void requireFileOptions(const FileRequest &file, ImageFormat format, const std::string &output) {
     if (file.tone && format != ImageFormat::Png)
         throw Error(ErrorKind::Usage,
                     fmt::format("--tone is for .png files: --output is {}, which holds radiance as it is; "

@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/base/json_reader.h"
 #include "host/image/file_options.h"
+#include "host/image/image_file.h"
 #include "host/scene/limits.h"
 #include "host/scene/names.h"
 
@@ -142,8 +143,8 @@ void addFileOptions(CLI::App &command, FileRequest &file);
 /// The option of the file that was given, or an empty text.
 [[nodiscard]] std::string_view givenOption(const FileRequest &file);
 
-/// Throws Error{Usage} for an option that the format of `output` has not.
-void requireFileOptions(const FileRequest &file, const std::string &output);
+/// Throws Error{Usage} for an option that `output` has not, which is of the format.
+void requireFileOptions(const FileRequest &file, ImageFormat format, const std::string &output);
 
 /// The range of times.
 inline constexpr Interval anySeconds{0.0, 1e9, false};

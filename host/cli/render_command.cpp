@@ -73,7 +73,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         requirePartOptions(request);
         return;
     }
-    const ImageFormat format = imageFormatOf(request.output);
+    const ImageFormat format = formatOf(request);
     if (isStandardStream(request.output) && request.partialSeconds)
         throw Error(ErrorKind::Usage,
                     "--partial: a partial image is replaced, which standard output does not do; "
@@ -89,7 +89,7 @@ void requireOptionsThatGoTogether(const RenderRequest &request) {
         throw Error(ErrorKind::Usage,
                     "--checkpoint: cpu-double sums in double precision, which a checkpoint does "
                     "not hold; use --device cpu or a Vulkan device");
-    requireFileOptions(request.file, request.output);
+    requireFileOptions(request.file, format, request.output);
     if (!request.scene.views.empty() && format != ImageFormat::Exr)
         throw Error(ErrorKind::Usage,
                     fmt::format("--layers are for .exr files: --output is {}", request.output));
@@ -137,7 +137,9 @@ void printFinished(const RenderReport &report, const RenderRequest &request) {
     const FinishedWork &finished = report.finished;
     std::string where = report.output + " has them";
     if (request.frame)
-        where = request.checkpoint.empty() ? "nothing is written" : request.checkpoint + " has them";
+        where = !request.checkpoint.empty() ? request.checkpoint + " has them"
+                : request.isInClip          ? fmt::format("frame {} is left out", *request.frame)
+                                            : "nothing is written";
     const std::string done =
         finished.noise ? fmt::format("with {:.1f} samples in the mean, and noise {}", finished.meanSamples(),
                                      noiseText(report))
@@ -158,11 +160,13 @@ std::string samplesText(const RenderReport &report) {
 }
 
 /// The last line: the speed of this run.
-void printSpeed(const RenderReport &report, const std::optional<Part> &part) {
+void printSpeed(const RenderReport &report, const RenderRequest &request) {
+    const std::optional<Part> &part = request.part;
     const std::uint64_t rayCount = report.rays.total() - (report.resumed ? report.resumed->rays.total() : 0);
     const double megaraysPerSecond =
         rayCount > 0 ? static_cast<double>(rayCount) / 1e6 / report.timing.renderSeconds : 0.0;
-    printResult("{}: {}{}x{}, {}, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n", report.output,
+    printResult("{}: {}{}x{}, {}, {}{} in {:.3f} s: {:.{}f} Mray/s ({:.3f} s in all)\n",
+                request.isInClip ? fmt::format("{}, frame {}", report.output, *request.frame) : report.output,
                 part ? fmt::format("part {} of {} of ", part->index, part->count) : "", report.origin.width,
                 report.origin.height, samplesText(report), report.resumed ? "resumed, " : "",
                 roundedText(rayCount, "rays"), report.timing.renderSeconds, megaraysPerSecond,
@@ -187,7 +191,7 @@ void printOutcome(const FinishedPicture &picture, const RenderRequest &request, 
         printFinished(report, request);
     if (isQuiet || (request.frame && !report.finished.isComplete))
         return;
-    printSpeed(report, request.part);
+    printSpeed(report, request);
     printShares(report);
     if (report.finished.noise && report.finished.noise->atLimit > 0)
         printMessage("note: {} of {} blocks have more noise than {} with --spp {}, which is the most for a "
@@ -198,6 +202,21 @@ void printOutcome(const FinishedPicture &picture, const RenderRequest &request, 
         printWarning("{}", *picture.diagnosis);
 }
 
+/// Throws Error{Usage} for options that frames of a clip do without.
+void requireClipOptions(const RenderRequest &request) {
+    const auto refuse = [&](std::string_view option, std::string_view reason) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: {}, {}; allowed: for frames in files of their own, frame.####.png",
+                                option, request.output, reason));
+    };
+    if (request.part)
+        refuse("--part", "the clip, has all frames");
+    if (!request.checkpoint.empty())
+        refuse("--checkpoint", "the clip, begins anew each time");
+    if (request.isResuming)
+        refuse("--resume", "the clip, begins anew each time");
+}
+
 /// Throws Error{Usage} for options that frames do without.
 void requireSequenceOptions(const RenderRequest &request, const SequenceOptions &options) {
     if (request.partialSeconds)
@@ -205,22 +224,27 @@ void requireSequenceOptions(const RenderRequest &request, const SequenceOptions 
                     "--partial: found frames, whose pictures are written when they are finished");
     if (request.scene.load.timeSeconds)
         throw Error(ErrorKind::Usage, "--time: found frames, which have a time each; allowed: --fps");
-    if (options.framesPerSecond && options.turntable)
-        throw Error(ErrorKind::Usage, "--fps: found --turntable, whose frames have no time");
-    const ImageFormat format = imageFormatOf(request.output);
+    if (options.framesPerSecond && options.turntable && !request.isInClip)
+        throw Error(ErrorKind::Usage,
+                    "--fps: found --turntable, whose frames have no time; allowed: for a clip");
+    const ImageFormat format = formatOf(request);
     if (options.hasMotion && format != ImageFormat::Exr)
         throw Error(ErrorKind::Usage,
                     fmt::format("--motion is for .exr files: --output is {}", request.output));
+    if (request.isInClip)
+        requireClipOptions(request);
     if (request.isResuming && format != ImageFormat::Exr && format != ImageFormat::Png)
         throw Error(
             ErrorKind::Usage,
             fmt::format("--resume: .exr and .png say which frame they are; --output is {}", request.output));
 }
 
-/// One picture, or one frame of a sequence, from a session that may be prepared already.
+/// One picture, or one frame of a sequence, from a session that may be prepared already. `clip` gets the frame, or is
+/// null.
 ExitCode renderOne(const RenderRequest &request, const std::string &commandLine, RenderSession &session,
-                   TerminalObserver &observer) {
+                   TerminalObserver &observer, SequenceClip *clip = nullptr) {
     PictureFiles files = openFiles(request);
+    files.clip = clip;
     if (!session.isPrepared())
         session.prepare(request);
     requireDistinctFiles(outputsOf(request), session.scene().loaded.inputFiles);
@@ -243,7 +267,8 @@ ExitCode renderOne(const RenderRequest &request, const std::string &commandLine,
     if (picture.failure)
         throw Error(*picture.failure);
     const std::optional<Stop> stop = observer.wantsStop();
-    observer.releaseSignals();
+    if (!request.isInClip) // else they count until the clip is written
+        observer.releaseSignals();
     return stop ? exitCodeOf(stop->kind) : ExitCode::Ok;
 }
 
@@ -274,10 +299,72 @@ ExitCode runRender(const RenderRequest &request, const std::string &commandLine,
     return renderOne(request, commandLine, session, observer);
 }
 
+/// All that the time allows, in turn.
+ExitCode renderFrames(Sequence &sequence, const RenderRequest &request, const std::string &commandLine,
+                      RenderSession &session, TerminalObserver &observer, SequenceClip *clip) {
+    const TimeLimit limit(request.timeLimitSeconds);
+    for (const int frame : sequence.frames()) {
+        RenderRequest ofFrame = sequence.requestOf(frame);
+        if (limit.isReached()) {
+            printMessage("stopped by the time limit before frame {}\n", frame);
+            break;
+        }
+        ofFrame.timeLimitSeconds = limit.secondsLeft();
+        sequence.moveTo(frame, session);
+        if (const ExitCode code = renderOne(ofFrame, commandLine, session, observer, clip);
+            code != ExitCode::Ok)
+            return code;
+    }
+    return ExitCode::Ok;
+}
+
+void writeClip(SequenceClip &clip, const Sequence &sequence, const RenderRequest &request,
+               const std::string &commandLine, const RenderSession &session,
+               const TerminalObserver &observer) {
+    const std::size_t wanted = sequence.frames().size();
+    if (!clip.isWhole()) {
+        printMessage("{}: none of {} is finished, and nothing is written\n", request.output,
+                     countText(wanted, "frame"));
+        return;
+    }
+    clip.write(sequence.frames(), session, commandLine);
+    if (const std::size_t finished = clip.frames().size(); finished < wanted)
+        printMessage("{}: the clip has {} of {} frames\n", request.output, finished, wanted);
+    else if (!observer.isQuiet())
+        printResult("{}: {}, {} a second\n", request.output, countText(wanted, "frame"),
+                    clip.framesPerSecond());
+}
+
+/// All frames in one file. If a frame fails, the file has those before it.
+ExitCode renderClip(Sequence &sequence, const SequenceOptions &options, const RenderRequest &request,
+                    const std::string &commandLine, RenderSession &session, TerminalObserver &observer) {
+    SequenceClip clip(request.output, options.framesPerSecond.value_or(defaultFramesPerSecond));
+    sequence.prepare(session);
+    const Crop &crop = session.scene().crop;
+    requireClipSize(request.output, clipFormatOf(request.output).value(), crop.width(), crop.height());
+    ExitCode code = ExitCode::Ok;
+    try {
+        code = renderFrames(sequence, request, commandLine, session, observer, &clip);
+    } catch (const Error &) {
+        if (clip.isWhole())
+            writeClip(clip, sequence, request, commandLine, session, observer);
+        throw;
+    }
+    writeClip(clip, sequence, request, commandLine, session, observer);
+    observer.releaseSignals();
+    return code;
+}
+
 ExitCode runSequence(RenderRequest request, const SequenceOptions &options, const std::string &commandLine,
                      TerminalObserver &observer) {
+    request.isInClip = isNameOfClip(request.output);
     requireSequenceOptions(request, options);
     const std::unique_ptr<Ranks> ranks = joinRanks();
+    if (ranks != nullptr && request.isInClip)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--output: found {} and several ranks; allowed: frames in files of "
+                                "their own, frame.####.png",
+                                request.output));
     if (ranks != nullptr && request.part)
         throw Error(ErrorKind::Usage, "--part: found several ranks, which are the parts of a sequence");
     if (ranks != nullptr)
@@ -291,20 +378,10 @@ ExitCode runSequence(RenderRequest request, const SequenceOptions &options, cons
     }
     requireOptionsThatGoTogether(sequence.requestOf(sequence.frames().front()));
     RenderSession session(observer);
+    if (request.isInClip)
+        return renderClip(sequence, options, request, commandLine, session, observer);
     sequence.prepare(session);
-    const TimeLimit limit(request.timeLimitSeconds);
-    for (const int frame : sequence.frames()) {
-        RenderRequest ofFrame = sequence.requestOf(frame);
-        if (limit.isReached()) {
-            printMessage("stopped by the time limit before frame {}\n", frame);
-            break;
-        }
-        ofFrame.timeLimitSeconds = limit.secondsLeft();
-        sequence.moveTo(frame, session);
-        if (const ExitCode code = renderOne(ofFrame, commandLine, session, observer); code != ExitCode::Ok)
-            return code;
-    }
-    return ExitCode::Ok;
+    return renderFrames(sequence, request, commandLine, session, observer, nullptr);
 }
 
 /// Throws Error{Usage} for options that views do without.
@@ -401,7 +478,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context) {
     command->callback([request, sequence, views, isQuiet, &context] {
         request->words = context.words;
         if (sequence->framesPerSecond && !sequence->areGiven())
-            throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST");
+            throw Error(ErrorKind::Usage, "--fps needs --frames FIRST..LAST, or --turntable and a clip");
         if (sequence->hasMotion && !sequence->areGiven())
             throw Error(ErrorKind::Usage,
                         "--motion: found one picture, which has no frame before it or after; "

@@ -87,7 +87,8 @@ void addRenderOptions(CLI::App &command, RenderRequest &request, bool &isQuiet) 
     addOutput(
         command, "-o,--output", request.output, "FILE",
         ".png: 8 bits, tone-mapped by --tone; .exr: linear float, with variance and sample counts; .hdr, "
-        ".pfm: linear; -: a PNG to standard output, exr:- another format")
+        ".pfm: linear; of frames also .webp, .apng: a clip; -: a PNG to standard output, exr:- another "
+        "format")
         ->required();
     addDevicesOption(
         command, request.devices,
@@ -188,8 +189,8 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
                 return true;
             }),
             "render these frames by the scene's moving camera, or its animations, from one loaded "
-            "scene; --output has # for their numbers: frame.####.exr. With --part, every N-th of them; "
-            "with --resume, those that are missing")
+            "scene; --output has # for their numbers: frame.####.exr; or it is one clip of all, a .webp or "
+            ".apng. With --part, every N-th of them; with --resume, those that are missing")
         ->type_name("FIRST..LAST")
         ->group(group);
     addNumber(command, "--turntable", options.turntable, {1, limits::frame.high},
@@ -197,7 +198,7 @@ void addSequenceOptions(CLI::App &command, SequenceOptions &options) {
         ->type_name("COUNT")
         ->group(group);
     addNumber(command, "--fps", options.framesPerSecond, limits::framesPerSecond,
-              "glTF: frames in a second of its animations")
+              "frames in a second of glTF animations, and of a clip")
         ->default_str("24")
         ->group(group);
     command

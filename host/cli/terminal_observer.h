@@ -31,7 +31,10 @@ class TerminalObserver : public Observer {
     void beforeDriver(const gpu::ProcessorUse &use) override;
 
     /// Until releaseSignals(), which is called when everything is written: until then the most could be lost.
-    void catchSignals() { signals_.emplace(isQuiet_); }
+    void catchSignals() {
+        if (!signals_)
+            signals_.emplace(isQuiet_);
+    }
     void releaseSignals() { signals_.reset(); }
 
   private:

@@ -35,6 +35,17 @@ Drawing drawFilm(const Film &film, const Image &colours, const RenderSettings &s
     return drawing;
 }
 
+Drawing drawPicture(const Film &film, const Picture &picture, const RenderSettings &settings,
+                    ToneCurve tone) {
+    if (settings.integrator == Integrator::Cost)
+        return drawCost(film);
+    Drawing drawing;
+    drawing.width = picture.colour.width();
+    drawing.height = picture.colour.height();
+    drawing.rgb = pngLevels(picture, settings.exposureStops, tone);
+    return drawing;
+}
+
 std::vector<std::string> writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                                    const RenderSettings &settings, const FileOptions &options) {
     if (format != ImageFormat::Png) {
@@ -42,14 +53,7 @@ std::vector<std::string> writeFilm(AtomicFile &file, ImageFormat format, const F
             picture.attributes.emplace_back(pixelsAttribute, exrPixelHash(picture, options.exr));
         return writeImage(file, format, picture, settings.exposureStops, options);
     }
-    Drawing drawing;
-    if (settings.integrator == Integrator::Cost) {
-        drawing = drawCost(film);
-    } else {
-        drawing.width = picture.colour.width();
-        drawing.height = picture.colour.height();
-        drawing.rgb = pngLevels(picture, settings.exposureStops, options.tone);
-    }
+    const Drawing drawing = drawPicture(film, picture, settings, options.tone);
     picture.attributes.emplace_back(pixelsAttribute, pixelHash(drawing.rgb));
     writePng(file, drawing.width, drawing.height, drawing.rgb, picture.attributes);
     return {};

@@ -27,7 +27,11 @@ inline constexpr const char *pixelsAttribute = "pixels";
 [[nodiscard]] Drawing drawFilm(const Film &film, const Image &colours, const RenderSettings &settings,
                                ToneCurve tone);
 
-/// writeImage() of the film's `picture`, or of drawCost() for a PNG of the cost, with the attribute "pixels", which is
+/// The levels of its PNG, three of each pixel or, with alpha, four: pngLevels() of the film's `picture`, or drawCost().
+[[nodiscard]] Drawing drawPicture(const Film &film, const Picture &picture, const RenderSettings &settings,
+                                  ToneCurve tone);
+
+/// writeImage() of the film's `picture`, or drawPicture() for a PNG, with the attribute "pixels", which is
 /// pixelHash() of the file's colours. Returns and throws likewise.
 std::vector<std::string> writeFilm(AtomicFile &file, ImageFormat format, const Film &film, Picture picture,
                                    const RenderSettings &settings, const FileOptions &options = {});

@@ -6,6 +6,7 @@
 #include "host/base/input_file.h"
 #include "host/base/letter_case.h"
 #include "host/base/standard_stream.h"
+#include "host/image/clip.h"
 #include "host/image/exr.h"
 #include "host/image/hdr.h"
 #include "host/image/pfm.h"
@@ -38,6 +39,12 @@ ImageFormat imageFormatOf(const std::filesystem::path &path) {
         return ImageFormat::Exr;
     if (extension == ".hdr")
         return ImageFormat::Hdr;
+    if (clipFormatOf(path))
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("'{}': .webp and .apng hold a sequence of frames in one file, whose name has no #; "
+                        "a picture by itself is written as .png, .exr, .hdr or .pfm",
+                        path.string()));
     throw Error(
         ErrorKind::Usage,
         fmt::format(

@@ -16,7 +16,6 @@ namespace hyalite::core {
 
 namespace {
 
-constexpr std::size_t headerEnd = 8 + 12 + 13; // signature, frame of IHDR, data of IHDR
 constexpr std::size_t keywordBytesMax = 79;
 
 std::uint32_t bigEndian32(std::span<const std::byte> bytes) {
@@ -45,12 +44,12 @@ std::optional<Attribute> textOf(std::string_view type, std::string_view data) {
     return Attribute(name == "Software" ? "software" : name, std::string(data));
 }
 
+} // namespace
+
 void appendBigEndian32(std::vector<std::byte> &bytes, std::uint64_t value) {
     for (int shift = 24; shift >= 0; shift -= 8)
         bytes.push_back(static_cast<std::byte>((value >> shift) & 0xffu));
 }
-
-} // namespace
 
 void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<const std::byte> data) {
     appendBigEndian32(file, data.size());
@@ -62,8 +61,7 @@ void appendChunk(std::vector<std::byte> &file, std::string_view type, std::span<
     appendBigEndian32(file, crc32_z(0, checked, file.size() - begin));
 }
 
-void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attributes) {
-    assert(png.size() > headerEnd);
+std::vector<std::byte> textChunks(std::span<const Attribute> attributes) {
     std::vector<std::byte> chunks;
     for (const auto &[name, text] : attributes) {
         assert(!name.empty() && name.size() <= keywordBytesMax);
@@ -74,7 +72,13 @@ void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attribu
         data += cleanText(text);
         appendChunk(chunks, "iTXt", std::as_bytes(std::span(data)));
     }
-    png.insert(png.begin() + headerEnd, chunks.begin(), chunks.end());
+    return chunks;
+}
+
+void insertTexts(std::vector<std::byte> &png, std::span<const Attribute> attributes) {
+    assert(png.size() > pngHeaderEnd);
+    const std::vector<std::byte> chunks = textChunks(attributes);
+    png.insert(png.begin() + pngHeaderEnd, chunks.begin(), chunks.end());
 }
 
 std::vector<Attribute> readPngTexts(const InputFile &file) {

@@ -72,7 +72,8 @@ void requireNoChoices(const LoadOptions &options, const std::filesystem::path &f
         refuse("this format has no cameras to choose from");
     if (!options.gltfScene.empty())
         refuse("this format has no scenes to choose from");
-    if (options.timeSeconds || (options.sequence && options.sequence->framesPerSecond))
+    const auto &sequence = options.sequence;
+    if (options.timeSeconds || (sequence && sequence->framesPerSecond && !sequence->isOfClip))
         refuse("this format has no animations");
 }
 

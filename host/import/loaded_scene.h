@@ -27,14 +27,19 @@ struct LoadEvents {
     OnReading onReading{}; ///< the share of all meshes that is read, each counting the same
 };
 
+inline constexpr double defaultFramesPerSecond = 24.0;
+
 /// Frames of a sequence in time.
 struct SequenceTimes {
-    std::optional<double> framesPerSecond{}; ///< default: 24
+    std::optional<double> framesPerSecond{}; ///< default: defaultFramesPerSecond
     int firstFrame = 0;                      ///< nobody asks for those before it
     int lastFrame = 0;
+    bool isOfClip = false; ///< which has the rate, too: formats without animations do not refuse one
 
     /// In seconds.
-    [[nodiscard]] double timeOf(int frame) const { return frame / framesPerSecond.value_or(24.0); }
+    [[nodiscard]] double timeOf(int frame) const {
+        return frame / framesPerSecond.value_or(defaultFramesPerSecond);
+    }
 };
 
 /// How a scene is loaded.

@@ -31,6 +31,24 @@ Layer noisyLayer(const Image &noisy) {
             }};
 }
 
+Drawing drawFilmPicture(const FilmPicture &picture) {
+    const Image noisy = picture.film.toImage();
+    Picture all(picture.clean != nullptr ? *picture.clean : noisy);
+    const std::vector<float> alpha = alphasOf(picture.film, picture.views, picture.settings);
+    all.alpha = alpha;
+    return drawPicture(picture.film, all, picture.settings, picture.options.tone);
+}
+
+std::vector<std::string> lossesOf(const FilmPicture &picture, ImageFormat format, const std::string &name) {
+    std::vector<std::string> losses;
+    if (format != ImageFormat::Exr && !picture.film.lightPlanes.empty())
+        losses.push_back(fmt::format("'{}' has none of the layers of light: an .exr keeps them", name));
+    if (format != ImageFormat::Exr && picture.settings.hasDenoisingData &&
+        keepsDenoisingData(picture.settings))
+        losses.push_back(fmt::format("'{}' has none of the denoiser's data: an .exr keeps it", name));
+    return losses;
+}
+
 std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, const FilmPicture &picture) {
     const Image noisy = picture.film.toImage();
     Picture all(picture.clean != nullptr ? *picture.clean : noisy);
@@ -56,13 +74,7 @@ std::vector<std::string> writeFilmPicture(AtomicFile &file, ImageFormat format, 
     all.projection = picture.projection;
     std::vector<std::string> warnings =
         writeFilm(file, format, picture.film, all, picture.settings, picture.options);
-    if (format != ImageFormat::Exr && !picture.film.lightPlanes.empty())
-        warnings.push_back(
-            fmt::format("'{}' has none of the layers of light: an .exr keeps them", file.path().string()));
-    if (format != ImageFormat::Exr && picture.settings.hasDenoisingData &&
-        keepsDenoisingData(picture.settings))
-        warnings.push_back(
-            fmt::format("'{}' has none of the denoiser's data: an .exr keeps it", file.path().string()));
+    std::ranges::move(lossesOf(picture, format, file.path().string()), std::back_inserter(warnings));
     return warnings;
 }
 

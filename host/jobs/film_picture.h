@@ -1,6 +1,7 @@
 // The picture file of a rendered film.
 #pragma once
 
+#include "host/image/bitmap_text.h"
 #include "host/image/image_file.h"
 #include "host/jobs/layers.h"
 
@@ -35,6 +36,13 @@ inline constexpr std::string_view noisyLayerName = "noisy";
 
 /// `noisy` must outlive it.
 [[nodiscard]] Layer noisyLayer(const Image &noisy);
+
+/// The levels of its PNG.
+[[nodiscard]] Drawing drawFilmPicture(const FilmPicture &picture);
+
+/// What a picture of that format and name lacks of the film, a sentence each.
+[[nodiscard]] std::vector<std::string> lossesOf(const FilmPicture &picture, ImageFormat format,
+                                                const std::string &name);
 
 /// Writes it with its views and the layers of the film; the caller commits the file. Returns and throws as writeImage()
 /// does.

@@ -42,10 +42,6 @@ bool mayBeThere(const RenderRequest &request) {
     return request.frame && request.isResuming && std::filesystem::is_regular_file(request.output, error);
 }
 
-ImageFormat formatOf(const RenderRequest &request) {
-    return request.part ? ImageFormat::Exr : imageFormatOf(request.output);
-}
-
 Part partOf(const PictureFiles &files) { return files.request.part.value_or(Part{}); }
 
 void setSquares(const Part &part, const Crop &crop, int smallestSide, PictureBeginning &begun) {
@@ -233,9 +229,11 @@ class PictureRender {
         if (result.failure && report_.finished.sampleCount == 0)
             throw Error(*result.failure);
         if (stop && report_.finished.sampleCount == 0)
-            throw Error(stop->kind,
-                        fmt::format("stopped by {} before the first sample was finished: nothing is written",
-                                    stop->by));
+            throw Error(
+                stop->kind,
+                fmt::format("stopped by {} before the first sample{} was finished: nothing{} is written",
+                            stop->by, request_.frame ? fmt::format(" of frame {}", *request_.frame) : "",
+                            request_.frame ? " of it" : ""));
         if (!report_.finished.isComplete)
             report_.stoppedBy = result.failure ? "the device" : stop ? stop->by : "the time limit";
         finished.isCutByTime = !report_.finished.isComplete && !result.failure && !stop;
@@ -282,8 +280,8 @@ class PictureRender {
         return clean;
     }
 
-    /// Returns as writeFilmPicture() does. `clean`: the denoised colours, or null.
-    std::vector<std::string> writePicture(AtomicFile &file, const Film &film, const Image *clean) const {
+    /// `clean`: the denoised colours, or null.
+    [[nodiscard]] FilmPicture pictureOf(const Film &film, const Image *clean) const {
         const LoadedScene &loaded = session_.scene().loaded;
         FilmPicture picture{.film = film, .views = layers_, .clean = clean};
         picture.wholeWidth = loaded.scene.camera.width;
@@ -304,7 +302,22 @@ class PictureRender {
         picture.options = request_.file.options();
         picture.projection = projectionOf(loaded.scene);
         picture.motion = motion_;
-        return writeFilmPicture(file, formatOf(request_), picture);
+        return picture;
+    }
+
+    /// Into the image's file, or the clip.
+    void writePicture(const FilmPicture &picture) {
+        std::vector<std::string> losses;
+        if (files_.image) {
+            losses = writeFilmPicture(*files_.image, formatOf(request_), picture);
+            files_.image->commit();
+        } else {
+            if (files_.clip->frames().empty())
+                losses = lossesOf(picture, formatOf(request_), request_.output);
+            files_.clip->add(*request_.frame, drawFilmPicture(picture));
+        }
+        for (const std::string &loss : losses)
+            session_.observer().warning(fmt::format("{}: {}", request_.output, loss));
     }
 
     [[nodiscard]] std::vector<PeriodicFile> periodicFiles() {
@@ -317,7 +330,8 @@ class PictureRender {
         if (request_.partialSeconds)
             files.push_back({*request_.partialSeconds, [this](const Film &film, const RayCounts &) {
                                  AtomicFile partial(request_.output);
-                                 writePicture(partial, film, nullptr); // the last one tells what is lost
+                                 // The last one tells what is lost.
+                                 writeFilmPicture(partial, formatOf(request_), pictureOf(film, nullptr));
                                  partial.commit();
                              }});
         if (files_.display)
@@ -346,18 +360,14 @@ class PictureRender {
                 finished.failure.emplace(error);
             }
         }
-        if (request_.frame && !report_.finished.isComplete)
-            files_.image.reset(); // scripts take an existing frame for finished
-        if (files_.image) {
+        const bool isWritten = !request_.part && (!request_.frame || report_.finished.isComplete);
+        if (isWritten) { // scripts take an existing frame for finished
             if (request_.hasMotion)
                 motion_ = motionVectors(session_.scene(), session_.loadNeighbours());
             const std::optional<Image> colours = denoisedColours(film, finished);
             const Image *clean = colours ? &*colours : nullptr;
             show(film, clean);
-            const std::vector<std::string> losses = writePicture(*files_.image, film, clean);
-            files_.image->commit();
-            for (const std::string &loss : losses)
-                session_.observer().warning(fmt::format("{}: {}", request_.output, loss));
+            writePicture(pictureOf(film, clean));
         } else {
             show(film, nullptr);
             std::error_code ignored; // the older generation is of no use to who merges parts
@@ -394,7 +404,7 @@ PictureFiles openFiles(RenderRequest request) {
     }
     static_cast<void>(formatOf(request)); // of no format: that is said first
     PictureFiles files;
-    if (!request.part && !mayBeThere(request))
+    if (!request.part && !request.isInClip && !mayBeThere(request))
         files.image.emplace(request.output);
     if (!request.report.empty())
         files.report.emplace(request.report);
@@ -433,7 +443,7 @@ PictureBeginning beginPicture(PictureFiles &files, const std::string &commandLin
         report.loadSeconds = scene.loadSeconds;
         report.buildSeconds = scene.buildSeconds;
     }
-    if (files.request.frame) {
+    if (files.request.frame && !files.request.isInClip) {
         begun.frameIdentity = identityOfFrame(files.request, session);
         begun.isFinished = !files.image && isImageWith(files.request.output, begun.frameIdentity,
                                                        scene.crop.width(), scene.crop.height());

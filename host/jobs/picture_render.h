@@ -8,6 +8,7 @@
 #include "host/film/partition.h"
 #include "host/jobs/display.h"
 #include "host/jobs/render_session.h"
+#include "host/jobs/sequence_clip.h"
 #include "host/report/render_report.h"
 
 #include <chrono>
@@ -21,8 +22,10 @@ namespace hyalite::core {
 
 /// The outputs of a picture, opened before the work begins, so that one that cannot be written is known at once.
 struct PictureFiles {
-    RenderRequest request;           ///< a part has its output as the checkpoint from which it resumes
-    std::optional<AtomicFile> image; ///< none for a part, nor for what may be the finished frame
+    RenderRequest request; ///< a part has its output as the checkpoint from which it resumes
+    std::optional<AtomicFile>
+        image;                    ///< none for a part, nor in a clip, nor for what may be the finished frame
+    SequenceClip *clip = nullptr; ///< of a frame that goes into one: it gets the picture
     std::optional<AtomicFile> report;
     std::unique_ptr<CheckpointLock> lock; ///< of the checkpoint, if there is one
     std::unique_ptr<Display> display;     ///< shows the picture, if a viewer is to

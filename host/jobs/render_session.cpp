@@ -1,10 +1,17 @@
 #include "host/jobs/render_session.h"
 
 #include "host/engine/shared_backend.h"
+#include "host/report/render_report.h"
 
 #include <utility>
 
 namespace hyalite::core {
+
+ImageFormat formatOf(const RenderRequest &request) {
+    if (request.part)
+        return ImageFormat::Exr;
+    return request.isInClip ? ImageFormat::Png : imageFormatOf(request.output);
+}
 
 void RenderSession::prepare(const RenderRequest &request, Source source) {
     const auto beginOpening = [&](const SceneOutline &outline) {
@@ -32,6 +39,15 @@ void RenderSession::open() {
         return;
     members.insert(members.begin(), std::move(opened_.backend));
     opened_.backend = shareBackends(std::move(members));
+}
+
+std::vector<Attribute> attributesOfSeveral(const RenderSession &session, const std::string &commandLine) {
+    const PreparedScene &scene = session.scene();
+    nlohmann::ordered_json origin =
+        provenanceToJson(provenanceOf(scene, commandLine),
+                         session.backend().identity(scene.packed, scene.loaded.settings.integrator));
+    origin.erase("sceneHash");
+    return attributesOf(origin);
 }
 
 } // namespace hyalite::core

@@ -6,6 +6,7 @@
 #include "host/farm/rank_backend.h"
 #include "host/film/partition.h"
 #include "host/image/file_options.h"
+#include "host/image/image_file.h"
 #include "host/jobs/motion.h"
 #include "host/scene/integrators.h"
 
@@ -35,12 +36,17 @@ struct RenderRequest {
     /// A frame of a sequence: its picture is written only when it is finished, and says which one it is. A render that
     /// is resuming leaves a picture alone that it would make once more.
     std::optional<int> frame;
+    bool isInClip = false;                ///< of a frame: it goes into `output` with the others
     bool hasMotion = false;               ///< of a frame: its picture has the layer of motion vectors
     std::string view{};                   ///< one of several: its picture says which
     std::vector<std::string> words;       ///< of the command line, for who has to make a part again
     std::optional<double> partialSeconds; ///< interval of partial pictures; default: none
     std::string display{}; ///< address of a viewer (display.h) that shows the picture; empty: none
 };
+
+/// Of the request's picture. Frames of a clip have the levels of a PNG; a part keeps what an EXR has. Throws as
+/// imageFormatOf() does.
+[[nodiscard]] ImageFormat formatOf(const RenderRequest &request);
 
 class RenderSession {
   public:
@@ -76,5 +82,9 @@ class RenderSession {
     OpenedRenderers opened_;
     bool isFirstPicture_ = false;
 };
+
+/// The attributes of a file with several pictures of the session's scene. Its hash would be that of the last camera.
+[[nodiscard]] std::vector<Attribute> attributesOfSeveral(const RenderSession &session,
+                                                         const std::string &commandLine);
 
 } // namespace hyalite::core

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/film/checkpoint.h"
 #include "host/film/checkpoint_lock.h"
+#include "host/image/clip.h"
 #include "host/scene/validate.h"
 
 #include <fmt/format.h>
@@ -45,12 +46,17 @@ void requireNoPlace(const SceneOptions &options) {
                                 Remedy::Turntable);
 }
 
-SequenceTimes timesOf(const SequenceOptions &options) {
+SequenceTimes timesOf(const SequenceOptions &options, bool isOfClip) {
     const FrameRange range = options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1});
-    return {options.framesPerSecond, range.first, range.last};
+    return {options.framesPerSecond, range.first, range.last, isOfClip};
 }
 
 } // namespace
+
+bool isNameOfClip(const std::string &output) {
+    return clipFormatOf(output) &&
+           std::filesystem::path(output).filename().string().find('#') == std::string::npos;
+}
 
 std::string nameOfFrame(const std::string &pattern, int frame, const std::string &option) {
     const std::filesystem::path path(pattern);
@@ -59,9 +65,10 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
     const std::size_t end = begin == std::string::npos ? begin : name.find_first_not_of('#', begin);
     if (begin == std::string::npos || (end != std::string::npos && name.find('#', end) != std::string::npos))
         throw OverrideError(
-            option, fmt::format("found {}; the file name of frames has one run of #, which their numbers "
-                                "replace: frame.####.exr",
-                                pattern));
+            option,
+            fmt::format("found {}; the file name of frames has one run of #, which their numbers "
+                        "replace: frame.####.exr{}",
+                        pattern, option == "output" ? "; .webp and .apng without # have all frames" : ""));
     const std::size_t width = (end == std::string::npos ? name.size() : end) - begin;
     const std::string numbered =
         name.substr(0, begin) + fmt::format("{:0{}}", frame, width) + name.substr(begin + width);
@@ -70,7 +77,7 @@ std::string nameOfFrame(const std::string &pattern, int frame, const std::string
 
 Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
     : request_(std::move(request)), turntable_(options.turntable), hasMotion_(options.hasMotion),
-      times_(timesOf(options)) {
+      times_(timesOf(options, request_.isInClip)) {
     const Part part = request_.part.value_or(Part{});
     for (int frame = times_.firstFrame; frame <= times_.lastFrame; ++frame)
         if (static_cast<std::uint32_t>(frame - times_.firstFrame) % part.count == part.index - 1)
@@ -78,7 +85,9 @@ Sequence::Sequence(RenderRequest request, const SequenceOptions &options)
     std::set<std::string> names;
     for (const int frame : frames_) {
         const RenderRequest ofFrame = requestOf(frame);
-        std::vector<std::string> files = {ofFrame.output, ofFrame.report, ofFrame.checkpoint};
+        std::vector<std::string> files = {ofFrame.report, ofFrame.checkpoint};
+        if (!ofFrame.isInClip)
+            files.push_back(ofFrame.output);
         if (!ofFrame.checkpoint.empty())
             files.insert(files.end(), {olderCheckpoint(ofFrame.checkpoint).string(),
                                        lockOfCheckpoint(ofFrame.checkpoint).string()});
@@ -95,7 +104,8 @@ RenderRequest Sequence::requestOf(int frame) const {
     request.part.reset();
     request.frame = frame;
     request.hasMotion = hasMotion_;
-    request.output = nameOfFrame(request.output, frame, "output");
+    if (!request.isInClip)
+        request.output = nameOfFrame(request.output, frame, "output");
     if (!request.report.empty())
         request.report = nameOfFrame(request.report, frame, "report");
     if (!request.checkpoint.empty())

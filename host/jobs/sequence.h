@@ -21,11 +21,14 @@ struct FrameRange {
 struct SequenceOptions {
     std::optional<FrameRange> frames; ///< default: those of the turntable
     std::optional<int> turntable;     ///< frames of a full turn; empty: the scene says how its camera moves
-    std::optional<double> framesPerSecond; ///< of animations; default: 24
+    std::optional<double> framesPerSecond; ///< of animations and clips; default: defaultFramesPerSecond
     bool hasMotion = false;                ///< pictures have the layer of motion vectors
 
     [[nodiscard]] bool areGiven() const { return frames || turntable; }
 };
+
+/// Whether an output of this name is a clip, which has all frames: of such a format (clip.h), and without #.
+[[nodiscard]] bool isNameOfClip(const std::string &output);
 
 /// "frame.####.exr" in frame 7 is "frame.0007.exr". Throws Error{Usage} unless the name of the file has exactly one run
 /// of #; `option` is for the message.
@@ -33,8 +36,8 @@ struct SequenceOptions {
 
 class Sequence {
   public:
-    /// The file names of the request have #, which the numbers of frames replace. Throws Error{Usage} if one has none,
-    /// or if two files would have the same name.
+    /// The file names of the request have #, which the numbers of frames replace, except that of a clip. Throws
+    /// Error{Usage} if one has none, or if two files would have the same name.
     Sequence(RenderRequest request, const SequenceOptions &options);
 
     /// The frames to render: those of the part, if one is asked for; they are dealt in turn.

@@ -55,16 +55,10 @@ void requireOwnCameras(const SceneOptions &options) {
         refuse("camera");
 }
 
-/// The attributes of a sheet. Its hash would be that of the last camera.
 std::vector<Attribute> attributesOfSheet(const ViewSeries &series, const RenderSession &session,
                                          const std::string &commandLine,
                                          std::span<const std::uint8_t> levels) {
-    const PreparedScene &scene = session.scene();
-    nlohmann::ordered_json origin =
-        provenanceToJson(provenanceOf(scene, commandLine),
-                         session.backend().identity(scene.packed, scene.loaded.settings.integrator));
-    origin.erase("sceneHash");
-    std::vector<Attribute> attributes = attributesOf(origin);
+    std::vector<Attribute> attributes = attributesOfSeveral(session, commandLine);
     std::string names;
     for (const View &view : series.views())
         names += (names.empty() ? "" : ",") + view.name;
