@@ -8,7 +8,8 @@
 #include "host/cli/terminal_observer.h"
 #include "host/import/assets.h"
 #include "host/lab/measurement.h"
-#include "host/report/baseline.h"
+#include "host/report/baseline_json.h"
+#include "host/report/figure_text.h"
 #include "host/report/profile_table.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,10 @@ void printMeasured(const Profile &profile) {
     printResult("clock        {}\n", profile.frames.back().timeline.clock);
     printResult("measured     {}, after {} that {} not\n", countText(measured, "frame"),
                 profile.frames.size() - measured, profile.frames.size() - measured == 1 ? "is" : "are");
+    const std::optional<StartSummary> warm = summariseWarmFrame(profile);
+    printResult("cold start   {} ms from loading to the end of the first frame{}\n",
+                millisText(summariseColdStart(profile).millis),
+                warm ? fmt::format("; a later frame takes {} ms", millisText(warm->millis)) : "");
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         printResult("memory       {} in buffers on the device\n", sizeText(bytes));
     for (const std::string &omission : profile.leftOut)
@@ -97,17 +102,23 @@ Baseline readBaseline(const ProfileOptions &options) {
     return baseline;
 }
 
-ExitCode judge(const Measurement &measurement, const Baseline &baseline) {
-    if (!baseline.figures)
-        return ExitCode::Ok;
-    if (measurement.isCut) {
+/// Nothing without a baseline, or if the time limit left nothing to compare.
+std::optional<BaselineVerdict> judge(const Measurement &measurement, const Baseline &baseline) {
+    if (!baseline.figures || measurement.isCut)
+        return std::nullopt;
+    return BaselineVerdict{compareWithBaseline(*baseline.figures, figuresOf(measurement.profile),
+                                               baseline.maxRegression, baseline.gate),
+                           baseline.figures->report, baseline.maxRegression, baseline.gate};
+}
+
+ExitCode printVerdict(const std::optional<BaselineVerdict> &verdict) {
+    if (!verdict) {
         printResult("\nNOT compared with the baseline: the time limit ended what it is compared with\n");
         return ExitCode::AnswerIsNo;
     }
-    const BaselineComparison comparison = compareWithBaseline(
-        *baseline.figures, figuresOf(measurement.profile), baseline.maxRegression, baseline.gate);
-    fmt::print("\n{}", cleanText(comparisonTable(comparison, baseline.maxRegression, baseline.gate)));
-    return comparison.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+    fmt::print("\n{}",
+               cleanText(comparisonTable(verdict->comparison, verdict->maxRegression, verdict->gate)));
+    return verdict->comparison.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 
 ExitCode runProfile(const ProfileOptions &options, const std::string &commandLine) {
@@ -131,8 +142,9 @@ ExitCode runProfile(const ProfileOptions &options, const std::string &commandLin
     }
     files.writeImage(measurement);
     printMeasured(measurement.profile);
-    files.writeFigures(measurement);
-    return judge(measurement, baseline);
+    const std::optional<BaselineVerdict> verdict = judge(measurement, baseline);
+    files.writeFigures(measurement, verdict ? &*verdict : nullptr);
+    return baseline.figures ? printVerdict(verdict) : ExitCode::Ok;
 }
 
 void addMeasurementOptions(CLI::App &command, MeasurementRequest &request) {
@@ -163,7 +175,7 @@ void addFileOptions(CLI::App &command, ProfilePaths &paths) {
               "render once more, and write how many boxes and triangles each pixel tests, in false colours");
     addOutput(command, "--html", paths.html, "FILE.html",
               "render once more, and write a page with the image, the heat map, the figures and where they "
-              "come from");
+              "come from; with --baseline, both profiles side by side");
 }
 
 void addBaselineOptions(CLI::App &command, ProfileOptions &options) {

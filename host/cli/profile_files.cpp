@@ -82,7 +82,7 @@ void ProfileFiles::writeImage(Measurement &measurement) {
     profile.hostStages.push_back({"write", watch.lap()});
 }
 
-void ProfileFiles::writeFigures(const Measurement &measurement) {
+void ProfileFiles::writeFigures(const Measurement &measurement, const BaselineVerdict *comparison) {
     const Profile &profile = measurement.profile;
     std::vector<std::byte> heatMap;
     if (measurement.heatMap)
@@ -92,7 +92,7 @@ void ProfileFiles::writeFigures(const Measurement &measurement) {
     store(trace_, jsonText(profileToTrace(profile)));
     if (html_)
         store(html_, profileHtml(profile, pngOf(drawFilm(measurement.film, profile.origin.settings), profile),
-                                 heatMap));
+                                 heatMap, comparison));
     if (heatMap_) {
         heatMap_->write(heatMap);
         heatMap_->commit();

@@ -5,6 +5,7 @@
 #include "host/cli/options.h"
 #include "host/image/image_file.h"
 #include "host/lab/measurement.h"
+#include "host/report/baseline_json.h"
 
 #include <optional>
 #include <string>
@@ -36,7 +37,8 @@ class ProfileFiles {
     [[nodiscard]] bool wantsHeatMap(const PreparedScene &scene) const;
     /// Writes the image, and adds the time of writing to the profile.
     void writeImage(Measurement &measurement);
-    void writeFigures(const Measurement &measurement);
+    /// `comparison`: with a baseline, or null.
+    void writeFigures(const Measurement &measurement, const BaselineVerdict *comparison);
 
   private:
     static void open(std::optional<AtomicFile> &file, const std::string &path);

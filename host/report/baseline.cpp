@@ -77,8 +77,12 @@ ProfileFigures figuresOf(const Json &json) {
         const std::string name = kernel.at("name").get<std::string>();
         figures.kernels.push_back(timesOf(name, kernel.at("frameMillis")));
     }
+    if (json.contains("stages"))
+        for (const Json &stage : json.at("stages"))
+            figures.stages.push_back(timesOf(stage.at("name").get<std::string>(), stage.at("frameMillis")));
     figures.frame = timesOf("frame", json.at("frameMillis"));
     addCounts(json.at("work"), "", figures.work);
+    figures.report = json;
     return figures;
 }
 
@@ -124,6 +128,14 @@ std::string timeRow(const TimeChange &change, const std::string &verdict) {
 
 } // namespace
 
+Change TimeChange::change() const {
+    if (!noise || oldMillis <= 0.0)
+        return Change::Unknown;
+    if (std::abs(ratio - 1.0) <= noisesOfChange * *noise)
+        return Change::None;
+    return ratio < 1.0 ? Change::Faster : Change::Slower;
+}
+
 ProfileFigures figuresOf(const Profile &profile) { return figuresOf(Json(profileToJson(profile))); }
 
 ProfileFigures readFigures(const std::filesystem::path &file) {
@@ -161,6 +173,10 @@ BaselineComparison compareWithBaseline(const ProfileFigures &baseline, const Pro
         if (change.isRegression && comparison.isSameDevice && gate != Gate::Work)
             comparison.isPassed = false;
         comparison.kernels.push_back(change);
+    });
+    std::vector<std::string> ofOneSide; // devices have stages of their own
+    match(baseline.stages, now.stages, ofOneSide, [&](const auto &old, const auto &other) {
+        comparison.stages.push_back(compareTimes(old, other, maxRegression));
     });
     comparison.frame = compareTimes(baseline.frame, now.frame, maxRegression);
     match(baseline.work, now.work, comparison.unmatched, [&](const auto &old, const auto &other) {

@@ -33,8 +33,10 @@ struct ProfileFigures {
     std::string scene;  ///< its file, for people
     std::string job;    ///< what was rendered, by content; only equal jobs are compared
     std::vector<Times> kernels;
+    std::vector<Times> stages; ///< those of frames, and those of the host
     Times frame{"frame", {}};
     std::vector<Count> work;
+    nlohmann::json report; ///< all figures, for pages
 };
 
 [[nodiscard]] ProfileFigures figuresOf(const Profile &profile);
@@ -43,6 +45,11 @@ struct ProfileFigures {
 /// version than profileVersion (profile_json.h).
 [[nodiscard]] ProfileFigures readFigures(const std::filesystem::path &file);
 
+/// How a time differs. It has changed if the ratio is off 1 by more than three times the noise: of two runs of 5 frames
+/// that do not differ, 3 in 100 do so by chance (of 3 frames 9, of 10 frames none; normal jitter).
+enum class Change { Unknown, None, Faster, Slower };
+inline constexpr double noisesOfChange = 3.0;
+
 struct TimeChange {
     std::string name;
     double oldMillis = 0.0; ///< median of the frames
@@ -50,6 +57,8 @@ struct TimeChange {
     double ratio = 1.0;          ///< new / old
     std::optional<double> noise; ///< of the ratio, relative; empty if a side has a single frame
     bool isRegression = false;
+
+    [[nodiscard]] Change change() const;
 };
 
 struct CountChange {
@@ -64,6 +73,7 @@ enum class Gate { All, Times, Work };
 
 struct BaselineComparison {
     std::vector<TimeChange> kernels;
+    std::vector<TimeChange> stages;     ///< of both sides, not gated: for pages
     TimeChange frame;                   ///< not a regression by itself: it includes compilers and caches
     std::vector<CountChange> work;      ///< differing counts
     std::size_t comparedCounts = 0;     ///< including equal ones

@@ -117,6 +117,40 @@ std::vector<KernelSummary> summariseKernels(const Profile &profile) {
     return kernels;
 }
 
+StartSummary summariseColdStart(const Profile &profile) {
+    StartSummary start;
+    const Frame &first = profile.frames.front();
+    for (const StageRecord &stage : profile.hostStages)
+        if (stage.span.beginNanos < first.span.beginNanos) {
+            start.stages.push_back({stage.name, stage.span.millis()});
+            start.millis += stage.span.millis();
+        }
+    for (const std::string &name : namesIn(profile, stageSpans)) {
+        double millis = 0.0;
+        for (const NamedSpan &named : stageSpans(first))
+            millis += *named.name == name ? named.span.millis() : 0.0;
+        start.stages.push_back({name, millis});
+    }
+    start.millis += first.span.millis();
+    return start;
+}
+
+std::optional<StartSummary> summariseWarmFrame(const Profile &profile) {
+    Profile later; // without its first frame
+    std::vector<double> millis;
+    for (const Frame &frame : std::span(profile.frames).subspan(1))
+        if (frame.isMeasured) {
+            later.frames.push_back(frame);
+            millis.push_back(frame.span.millis());
+        }
+    if (millis.empty())
+        return std::nullopt;
+    StartSummary start{quantile(millis, 0.5), {}};
+    for (const std::string &name : namesIn(later, stageSpans))
+        start.stages.push_back({name, summariseSpans(later, name, stageSpans).medianFrameMillis()});
+    return start;
+}
+
 double measuredShare(const Profile &profile) {
     double share = 1.0;
     for (const Frame &frame : profile.frames)

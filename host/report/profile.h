@@ -77,6 +77,23 @@ struct KernelSummary {
 /// The frame as a row. It is not a stage, but about the sum of them.
 [[nodiscard]] StageSummary summariseFrame(const Profile &profile);
 
+/// A frame with what precedes it, by stages. Times in milliseconds.
+struct StartSummary {
+    struct Stage {
+        std::string name;
+        double millis = 0.0;
+    };
+    double millis = 0.0; ///< of all; stages leave out what is between them
+    std::vector<Stage> stages;
+};
+
+/// From nothing to the first frame: the stages of the host before the frames, and the first one that was rendered,
+/// measured or not, when nothing of it was there. What drivers keep on disk may be.
+[[nodiscard]] StartSummary summariseColdStart(const Profile &profile);
+
+/// A later frame: the medians of those that are measured and not the first one. Empty if there is none.
+[[nodiscard]] std::optional<StartSummary> summariseWarmFrame(const Profile &profile);
+
 /// The finished share of the measured frames; below 1: of a single one, which the time limit ended.
 [[nodiscard]] double measuredShare(const Profile &profile);
 

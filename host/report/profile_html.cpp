@@ -7,11 +7,15 @@
 namespace hyalite::core {
 
 std::string profileHtml(const Profile &profile, std::span<const std::byte> png,
-                        std::span<const std::byte> heatMapPng) {
+                        std::span<const std::byte> heatMapPng, const BaselineVerdict *comparison) {
     nlohmann::ordered_json report = profileToJson(profile);
     report["picture"] = base64(png);
     if (!heatMapPng.empty())
         report["heatMap"] = base64(heatMapPng);
+    if (comparison != nullptr) {
+        report["comparison"] = comparisonToJson(*comparison);
+        report["baseline"] = comparison->baseline;
+    }
     return filledPage(profile_page::profileHtml, {{R"(id="report">)", scriptJson(report)}});
 }
 

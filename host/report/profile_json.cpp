@@ -35,6 +35,13 @@ nlohmann::ordered_json kernelToJson(const KernelSummary &kernel) {
     return json;
 }
 
+nlohmann::ordered_json startToJson(const StartSummary &start) {
+    nlohmann::ordered_json json{{"millis", start.millis}};
+    for (const StartSummary::Stage &stage : start.stages)
+        json["stages"].push_back({{"name", stage.name}, {"millis", stage.millis}});
+    return json;
+}
+
 } // namespace
 
 nlohmann::ordered_json profileToJson(const Profile &profile) {
@@ -59,6 +66,10 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
     json["stageShare"] = stageShare(summariseStages(profile));
     for (const StageSummary &stage : summariseStages(profile))
         json["stages"].push_back(summaryToJson(stage));
+    json["coldStart"] = startToJson(summariseColdStart(profile));
+    json["coldStart"]["frame"] = profile.frames.front().label;
+    if (const std::optional<StartSummary> warm = summariseWarmFrame(profile))
+        json["warmFrame"] = startToJson(*warm);
     RayCounts rays;
     for (const KernelSummary &kernel : kernels) {
         json["kernels"].push_back(kernelToJson(kernel));

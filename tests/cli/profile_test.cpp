@@ -109,6 +109,21 @@ TEST_F(ProfileCommand, CountsTheWorkOfTheIntegratorThatIsMeasured) {
     EXPECT_FALSE(onCpu.contains("timeLimit"));
 }
 
+TEST_F(ProfileCommand, APageHasBothProfiles) {
+    const std::string line = "profile spheres --html page.html" + smallProfiled + " --device ";
+    ASSERT_EQ(run(line + "cpu --report old.json").exitCode, 0);
+    EXPECT_FALSE(reportInPage(load("page.html")).contains("baseline"));
+    const Outcome outcome = run(line + softwareDevice() + " --baseline old.json --report new.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome;
+    const nlohmann::json report = reportInPage(load("page.html"));
+    EXPECT_EQ(report.at("baseline"), nlohmann::json::parse(load("old.json")));
+    EXPECT_EQ(report.at("comparison").at("isSameDevice"), false);
+    EXPECT_EQ(report.at("comparison").at("comparedCounts"), 6);
+    EXPECT_EQ(report.at("coldStart").at("frame"), "verification");
+    EXPECT_GT(report.at("coldStart").at("millis"), report.at("warmFrame").at("millis"));
+    EXPECT_FALSE(nlohmann::json::parse(load("new.json")).contains("comparison"));
+}
+
 TEST_F(ProfileCommand, ATimeLimitEndsItWithAllThatThereIs) {
     store("glass.json", glassScene());
     const std::string line =

@@ -219,5 +219,22 @@ TEST(Baseline, NamesInItAreFitForATerminal) {
     EXPECT_NE(table.find("not compared \uFFFD[31m (only in the baseline)"), std::string::npos) << table;
 }
 
+TEST(Baseline, ChangesBeyondTheNoiseAreNamed) {
+    const Profile old = handMadeProfile(calm);
+    const auto changeOf = [&](double factor) {
+        return compare(old, handMadeProfile(times(factor, calm))).kernels[0].change();
+    };
+    EXPECT_EQ(changeOf(1.0), Change::None);
+    EXPECT_EQ(changeOf(1.08), Change::None) << "three times 2.8 % are 8.5 %";
+    EXPECT_EQ(changeOf(1.09), Change::Slower);
+    EXPECT_EQ(changeOf(0.9), Change::Faster);
+    EXPECT_EQ(compare(old, handMadeProfile({1.5})).kernels[0].change(), Change::Unknown);
+    const BaselineComparison comparison = compare(old, handMadeProfile(times(1.2, calm)));
+    ASSERT_EQ(comparison.stages.size(), 4u); // load, upload, dispatches, write
+    EXPECT_EQ(comparison.stages[2].name, "dispatches");
+    EXPECT_EQ(comparison.stages[2].change(), Change::Slower);
+    EXPECT_EQ(comparison.stages[1].change(), Change::None);
+}
+
 } // namespace
 } // namespace hyalite::core

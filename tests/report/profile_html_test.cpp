@@ -1,4 +1,5 @@
 #include "host/base/markup.h"
+#include "host/report/baseline_json.h"
 #include "host/report/figure_text.h"
 #include "host/report/page.h"
 #include "host/report/profile_html.h"
@@ -128,6 +129,63 @@ TEST(ProfileHtml, ShowsEveryFigureOfTheReport) {
     for (std::string path; std::getline(paths, path); ++count)
         EXPECT_TRUE(std::regex_match(path, others)) << path;
     EXPECT_EQ(count, 24u); // that the report was looked through
+}
+
+/// Of a kernel "a" that has become twice as fast, with as many rays less of a kind.
+BaselineVerdict verdictOn(const Profile &old, const Profile &now) {
+    return {compareWithBaseline(figuresOf(old), figuresOf(now), 0.05, Gate::All), profileToJson(old), 0.05,
+            Gate::All};
+}
+
+TEST(ProfileHtml, ShowsTwoProfilesAndWhatHasChanged) {
+    Profile old = handMadeProfile({1.96, 1.98, 2.0, 2.02, 2.04});
+    old.device.name = "the other device";
+    old.origin.commandLine = "hyalite profile before.json";
+    old.frames.back().timeline.dispatches[0].rays.shadow += 50;
+    const Profile now = handMadeProfile({0.98, 0.99, 1.0, 1.01, 1.02});
+    const BaselineVerdict verdict = verdictOn(old, now);
+    const std::string page = profileHtml(now, bytesOf("\x89PNG"), {}, &verdict);
+    EXPECT_EQ(reportInPage(page).at("baseline"), profileToJson(old));
+    EXPECT_EQ(reportInPage(page).at("comparison"), comparisonToJson(verdict));
+    const std::string markup = runScript(page);
+    expectWellFormed(markup.substr(markup.find('\n')));
+    for (const char *part :
+         {"Before: the other device", "After: the device", "hyalite profile before.json",
+          "Before, a frame: 130.0 ms", "After, a frame: 70.0 ms", "kernel a is faster, 0.500 of before",
+          "dispatches is faster, 0.512 of before", "2 of 6 counts differ",
+          "No regression by the limit of 5.0 %", "The devices or drivers are two",
+          "<td>kernel a</td><td>80.0</td><td>40.0</td><td>0.500</td><td>1.4 %</td><td>faster</td>",
+          "<td>upload</td><td>5.000</td><td>5.000</td><td>1.000</td><td>0.0 %</td><td>within the noise</td>",
+          "<td>rays.shadow</td><td>6050</td><td>6000</td><td>0.992</td><td></td><td>less work</td>"})
+        EXPECT_NE(markup.find(part), std::string::npos) << part << markup;
+    const std::regex others("(profileVersion|baseline\\..*|comparison\\.(stages|kernels|frame).*isRegression|"
+                            "(stages\\.\\d+\\.|kernels\\.\\d+\\.|)frameMillis\\.\\d+|isVerified|"
+                            "comparison\\.(frame|stages\\.\\d+)\\.isRegression|"
+                            "comparison\\.are.*|(kernels\\.\\d+|frame)\\.isInFrame)");
+    std::istringstream paths(runScript(page, "unshown"));
+    for (std::string path; std::getline(paths, path);)
+        EXPECT_TRUE(std::regex_match(path, others)) << path;
+}
+
+TEST(ProfileHtml, NamesARegression) {
+    const BaselineVerdict verdict = verdictOn(handMadeProfile({1.0, 1.0}), handMadeProfile({1.5, 1.5}));
+    const std::string markup =
+        runScript(profileHtml(handMadeProfile({1.5, 1.5}), bytesOf("\x89PNG"), {}, &verdict));
+    for (const char *part : {"A REGRESSION by the limit", "slower, REGRESSION", "All 6 counts are equal",
+                             "<tr class=\"changed\">"})
+        EXPECT_NE(markup.find(part), std::string::npos) << part << markup;
+    EXPECT_EQ(markup.find("devices or drivers are two"), std::string::npos);
+}
+
+TEST(ProfileHtml, ABaselineOfFewFiguresIsShownToo) {
+    const Profile now = handMadeProfile({1.0});
+    BaselineVerdict verdict = verdictOn(now, now);
+    verdict.baseline = {{"device", nullptr}};
+    const std::string markup = runScript(profileHtml(now, bytesOf("\x89PNG"), {}, &verdict));
+    EXPECT_NE(markup.find("Before: –"), std::string::npos) << markup;
+    EXPECT_NE(markup.find("<td>unknown</td>"), std::string::npos) << "a single frame has no noise";
+    for (const char *part : {"undefined", "NaN", "null"})
+        EXPECT_EQ(markup.find(part), std::string::npos) << part;
 }
 
 TEST(ProfileHtml, HasTheTimesThatTheTableHas) {

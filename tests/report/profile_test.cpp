@@ -128,5 +128,30 @@ TEST(ProfileJson, HasFiguresOfStagesKernelsAndWork) {
     EXPECT_EQ(json.at("deviceBytes"), 2500);
 }
 
+TEST(ProfileStart, IsColdOnce) {
+    const Profile profile = handMadeProfile({1.0, 1.2, 1.4}); // the warm-up took three times as long
+    const StartSummary cold = summariseColdStart(profile);
+    ASSERT_EQ(cold.stages.size(), 3u);
+    EXPECT_EQ(cold.stages[0].name, "load");
+    EXPECT_DOUBLE_EQ(cold.stages[0].millis, 2.0);
+    EXPECT_EQ(cold.stages[2].name, "dispatches");
+    EXPECT_DOUBLE_EQ(cold.stages[2].millis, 183.0);
+    EXPECT_DOUBLE_EQ(cold.millis, 2.0 + 190.0) << "writing comes later";
+    const std::optional<StartSummary> warm = summariseWarmFrame(profile);
+    ASSERT_TRUE(warm);
+    EXPECT_DOUBLE_EQ(warm->millis, 82.0);
+    ASSERT_EQ(warm->stages.size(), 2u);
+    EXPECT_DOUBLE_EQ(warm->stages[1].millis, 75.0);
+}
+
+TEST(ProfileStart, OfAMeasuredFirstFrameIsNotWarm) {
+    Profile profile = handMadeProfile({1.0, 1.2});
+    profile.frames.erase(profile.frames.begin());
+    EXPECT_DOUBLE_EQ(summariseColdStart(profile).millis, 2.0 + 70.0);
+    EXPECT_DOUBLE_EQ(summariseWarmFrame(profile).value().millis, 82.0 - 6.0 + 6.0);
+    profile.frames.pop_back();
+    EXPECT_FALSE(summariseWarmFrame(profile));
+}
+
 } // namespace
 } // namespace hyalite::core
