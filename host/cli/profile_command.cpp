@@ -69,6 +69,8 @@ void printMeasured(const Profile &profile) {
                 warm ? fmt::format("; a later frame takes {} ms", millisText(warm->millis)) : "");
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         printResult("memory       {} in buffers on the device\n", sizeText(bytes));
+    if (profile.charges)
+        printResult("dearest      {}\n", cleanText(dearestText(*profile.charges)));
     for (const std::string &omission : profile.leftOut)
         printResult("left out     by the time limit: {}\n", omission);
     fmt::print("\n{}", cleanText(profileTable(profile)));
@@ -123,19 +125,20 @@ ExitCode printVerdict(const std::optional<BaselineVerdict> &verdict) {
 
 ExitCode runProfile(const ProfileOptions &options, const std::string &commandLine) {
     const Baseline baseline = readBaseline(options);
+    MeasurementRequest request = options.measurement;
+    request.isCharging = request.isCounting || !options.paths.html.empty();
     const std::vector<NamedFile> outputs = namedFiles(options.paths);
     requireDistinctFiles(outputs, {resolveScene(options.measurement.scene.scene).string(), options.baseline});
     ProfileFiles files(options.paths);
     TerminalObserver observer(options.isQuiet);
-    const MeasurementSubject subject = prepareMeasurement(options.measurement, commandLine, observer);
+    const MeasurementSubject subject = prepareMeasurement(request, commandLine, observer);
     const Provenance &origin = subject.profile.origin;
     requireDistinctFiles(outputs, subject.scene.loaded.inputFiles);
     files.requireSizes(origin.width, origin.height);
     if (baseline.figures)
         requireSameJob(*baseline.figures, subject.profile);
     printHead(subject.profile, *subject.device);
-    Measurement measurement =
-        measure(subject, options.measurement, files.wantsHeatMap(subject.scene), observer);
+    Measurement measurement = measure(subject, request, files.wantsHeatMap(subject.scene), observer);
     if (measurement.fault) {
         printFault(*measurement.fault, *subject.device);
         return ExitCode::AnswerIsNo;
@@ -201,8 +204,9 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     command->add_flag("--quiet", options->isQuiet, "show no progress");
     addFileOptions(*command, options->paths);
     command->add_flag("--counts", options->measurement.isCounting,
-                      "render twice more and count nodes, boxes and triangles, of the same rays with a stack "
-                      "and of the kernel's own traversal, and how busy the kernel's lanes are");
+                      "render again and count nodes, boxes and triangles, of the same rays with a stack and of "
+                      "the kernel's own traversal, how busy the kernel's lanes are, and which objects and "
+                      "materials the rays work for");
     addBaselineOptions(*command, *options);
     command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });
 }

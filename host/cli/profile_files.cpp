@@ -90,9 +90,12 @@ void ProfileFiles::writeFigures(const Measurement &measurement, const BaselineVe
     store(report_, jsonText(profileToJson(profile)));
     store(csv_, profileCsv(profile));
     store(trace_, jsonText(profileToTrace(profile)));
+    StagePictures stages;
+    for (std::size_t stage = 0; html_ && stage < measurement.stagePictures.size(); ++stage)
+        stages[stage] = pngOf(measurement.stagePictures[stage], profile);
     if (html_)
         store(html_, profileHtml(profile, pngOf(drawFilm(measurement.film, profile.origin.settings), profile),
-                                 heatMap, comparison));
+                                 heatMap, stages, comparison));
     if (heatMap_) {
         heatMap_->write(heatMap);
         heatMap_->commit();

@@ -1,7 +1,9 @@
 #include "host/lab/measurement.h"
 
 #include "host/base/quantities.h"
+#include "host/image/false_colour.h"
 #include "host/image/metrics.h"
+#include "host/reference/renderer.h"
 #include "host/report/figure_text.h"
 #include "host/report/render_report.h"
 
@@ -28,8 +30,10 @@ class MeasurementRun {
     MeasurementRun(const MeasurementSubject &subject, const MeasurementRequest &request, bool wantsHeatMap,
                    Observer &observer)
         : scene_(subject.scene), device_(*subject.device), request_(request),
-          isCounting_(request.isCounting || wantsHeatMap), observer_(observer),
-          limit_(request.timeLimitSeconds), measuring_(limit_.share(isCounting_ ? 0.5 : 1.0)) {
+          isCounting_(request.isCounting || wantsHeatMap),
+          isCharging_(request.isCharging && reference::canChargeWork(subject.scene.loaded.settings)),
+          observer_(observer), limit_(request.timeLimitSeconds),
+          measuring_(limit_.share(isCounting_ || isCharging_ ? 0.5 : 1.0)) {
         profile_ = subject.profile;
         profile_.timeLimitSeconds = request.timeLimitSeconds;
     }
@@ -43,6 +47,8 @@ class MeasurementRun {
             countWork();
         if (request_.isCounting)
             countKernelWork();
+        if (isCharging_)
+            chargeWork();
         result_.isCut = result_.isCut || measuredShare(profile_) < 1.0;
         return std::move(result_);
     }
@@ -165,6 +171,46 @@ class MeasurementRun {
                            result.work, result.lanes};
     }
 
+    /// So few samples that they are a small part of most profiles; the same for pictures of one size.
+    [[nodiscard]] int chargedSamples() const {
+        constexpr int most = 4;
+        constexpr std::size_t samplesMax = std::size_t{1} << 20;
+        const std::size_t pixelCount = result_.film.pixels.size();
+        const auto fitting =
+            static_cast<int>(std::min<std::size_t>(samplesMax / std::max<std::size_t>(pixelCount, 1), most));
+        return std::min(std::max(fitting, 1), scene_.loaded.settings.samplesPerPixel);
+    }
+
+    /// Charges the rays of the first samples, by the CPU twin: the same on every machine, whatever is measured.
+    void chargeWork() {
+        RenderSettings settings = scene_.loaded.settings;
+        settings.samplesPerPixel = chargedSamples();
+        ObservedTask progress(observer_, "counting by objects", false);
+        RenderHooks hooks;
+        hooks.onProgress = [&](double share) { progress.update(share); };
+        hooks.shouldStop = [&] { return observer_.wantsStop().has_value() || limit_.isReached(); };
+        const reference::Result result =
+            reference::render(scene_.packed, settings, Film(scene_.crop),
+                              {.threadCount = request_.threadCount, .isCharging = true}, hooks);
+        if (!finishedWork(result.film, std::span(&result.film.crop, 1), settings.samplesPerPixel)
+                 .isComplete) {
+            profile_.leftOut.emplace_back("the work by objects and materials");
+            return;
+        }
+        profile_.charges = chargesOf(result.ledger, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                                     scene_.packed.namesOf(Integrator::ObjectNumber),
+                                     scene_.packed.namesOf(Integrator::MaterialNumber));
+        const Image means = result.film.toImage();
+        for (glm::length_t stage = 0; stage < 3; ++stage) {
+            std::vector<float> tests;
+            for (const glm::vec3 &pixel : means.pixels())
+                tests.push_back(pixel[stage]);
+            result_.stagePictures.push_back(falseColours(
+                scene_.crop.width(), scene_.crop.height(), tests,
+                fmt::format("tests per sample, {} rays", pathStageNames[static_cast<std::size_t>(stage)])));
+        }
+    }
+
     /// Notes a count that the time limit cut.
     void cutCount(const char *what, double share) {
         result_.isCut = true;
@@ -187,6 +233,7 @@ class MeasurementRun {
     Backend &device_;
     const MeasurementRequest &request_;
     const bool isCounting_;
+    const bool isCharging_;
     Observer &observer_;
     const TimeLimit limit_;     ///< of all renders
     const TimeLimit measuring_; ///< of those before the counts

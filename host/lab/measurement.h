@@ -23,6 +23,7 @@ struct MeasurementRequest {
     int repeatCount = 5;
     std::optional<double> timeLimitSeconds; ///< for all renders together
     bool isCounting = false; ///< renders twice more: counts the work of the rays, and of the measured kernel
+    bool isCharging = false; ///< finds out which objects and materials the rays work for, on the CPU
     bool isUnverified = false;
 };
 
@@ -42,7 +43,9 @@ struct Measurement {
     std::optional<std::string> fault; ///< how the device differs from the CPU twin; nothing was measured then
     Film film{Crop{}};                ///< of a measured frame
     std::optional<Drawing> heatMap;   ///< boxes and triangles tested, in false colours
-    bool isCut = false;               ///< the time limit left out what a baseline is compared with
+    /// By PathStage, the boxes and triangles tested, in false colours; empty unless rays were charged.
+    std::vector<Drawing> stagePictures{};
+    bool isCut = false; ///< the time limit left out what a baseline is compared with
 };
 
 /// Renders a first frame and compares it with the CPU twin's, unless the request skips that or the device is the CPU

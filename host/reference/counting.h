@@ -1,4 +1,5 @@
-// Counters for traversal: none, at no cost, or all counts of the kernel with a stack.
+// Counters for traversal: none, at no cost, or all counts of the kernel with a stack. A third one charges each ray
+// (ledger_counter.h): integrators say where rays arrive.
 // Twin: the counts in shaders/traversal/traverse_stack.glsl.
 #pragma once
 
@@ -11,6 +12,8 @@ struct NoCounter {
     void visitNode(const layout::NodePair &) {}
     void waitSubtrees(std::size_t) {}
     void testTriangle() {}
+    template <class Scene> void arrive(const Scene &, std::uint32_t, std::uint32_t, std::uint32_t) {}
+    void followShadowRay() {}
 };
 
 struct WorkCounter {
@@ -32,6 +35,8 @@ struct WorkCounter {
         ++counts.trianglesTested;
         sample.z += 1.0f;
     }
+    template <class Scene> void arrive(const Scene &, std::uint32_t, std::uint32_t, std::uint32_t) {}
+    void followShadowRay() {}
 };
 
 } // namespace hyalite::core::reference

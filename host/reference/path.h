@@ -134,6 +134,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         weaken(transmittance(hit.distance));
         if (hit.primitive == layout::noPrimitive) {
+            counter_.arrive(scene_, depth_, hit.primitive, 0);
             if (transparency_.seesThrough())
                 transparency_.become(throughput_);
             else
@@ -142,6 +143,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         }
         std::uint32_t materialIndex;
         Surface<Real> surface = hitSurface(scene_, hit, ray.origin, ray.direction, materialIndex);
+        counter_.arrive(scene_, depth_, hit.primitive, materialIndex);
         const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
                                                           layout::texturesMaterials, surface.position);
         traceEvent(layout::traceSurfacePosition, 0, surface.position);
@@ -265,6 +267,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
                             primitive,
                             {pixel_, sampleIndex_, 2 * depth_ + 1}};
         const bool isBlocked = isAnythingBefore(scene_, ray, light.distance, light.target, counter_);
+        counter_.followShadowRay();
         traceEvent(layout::traceVisibility, isBlocked ? layout::visibilityBlocked : layout::visibilityClear,
                    Vec3<Real>(static_cast<Real>(emitter)));
         return !isBlocked;

@@ -2,6 +2,7 @@
 
 #include "host/film/tally.h"
 #include "host/packing/light_planes.h"
+#include "host/reference/ledger_counter.h"
 #include "host/reference/path.h"
 #include "host/reference/view.h"
 #include "host/reference/whitted.h"
@@ -22,7 +23,7 @@ namespace hyalite::core::reference {
 
 namespace {
 
-/// A sample is the traversal work of a sample of `Integrator`.
+/// A sample is the traversal work of a sample of `Integrator`, as its counter has it.
 template <class Real, class Integrator> class WorkOf : public Integrator {
   public:
     using Integrator::Integrator;
@@ -128,7 +129,7 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                  const Options &options, const RenderHooks &hooks)
         : makeIntegrator_(makeIntegrator), options_(options), hooks_(hooks),
           sampleCount_(static_cast<std::uint32_t>(settings.samplesPerPixel)),
-          tallies_(rowOf(settings.integrator).tallies()), result_{std::move(begun), {}, {}},
+          tallies_(rowOf(settings.integrator).tallies()), result_{std::move(begun), {}, {}, {}},
           pixelCount_(static_cast<std::int64_t>(result_.film.pixels.size())) {
         for (const layout::FilmPixel &pixel : result_.film.pixels)
             finishedSamples_ += std::min(pixel.sampleCount, sampleCount_); // some may have more
@@ -168,6 +169,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                 result_.rays += integrator.counts();
                 if constexpr (std::is_same_v<Counter, WorkCounter>)
                     result_.work += integrator.counter().counts;
+                if constexpr (std::is_same_v<Counter, LedgerCounter>)
+                    result_.ledger += integrator.counter().ledger;
             }
         }
     }
@@ -238,6 +241,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
 template <class Real, class Counter, class Use>
 auto withIntegrator(const PackedScene &scene, const RenderSettings &settings, const Use &use) {
     const auto useOf = [&]<class Integrator>(std::type_identity<Integrator>) {
+        if constexpr (std::is_same_v<Counter, LedgerCounter>)
+            return use([&] { return WorkOf<Real, Integrator>(scene, settings); });
         if constexpr (std::is_same_v<Counter, WorkCounter>)
             if (showsWork(settings))
                 return use([&] { return WorkOf<Real, Integrator>(scene, settings); });
@@ -267,6 +272,8 @@ std::vector<layout::TraceEvent> traceAs(const PackedScene &scene, const RenderSe
 
 } // namespace
 
+bool canChargeWork(const RenderSettings &settings) { return rowOf(settings.integrator).showsLight; }
+
 Result render(const PackedScene &scene, const RenderSettings &settings, Film begun, const Options &options,
               const RenderHooks &hooks) {
     begun.keepLight(lightPlaneNames(scene, settings));
@@ -279,6 +286,10 @@ Result render(const PackedScene &scene, const RenderSettings &settings, Film beg
             });
     };
     const bool isDouble = options.precision == Precision::Float64;
+    if (options.isCharging) {
+        assert(canChargeWork(settings) && !isDouble);
+        return renderAs.template operator()<float, LedgerCounter>();
+    }
     if (options.isCounting || showsWork(settings))
         return isDouble ? renderAs.template operator()<double, WorkCounter>()
                         : renderAs.template operator()<float, WorkCounter>();

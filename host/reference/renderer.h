@@ -6,6 +6,7 @@
 #include "host/film/ray_counts.h"
 #include "host/film/render_hooks.h"
 #include "host/film/work_counts.h"
+#include "host/film/work_ledger.h"
 #include "host/packing/packed_scene.h"
 
 namespace hyalite::core::reference {
@@ -17,13 +18,20 @@ struct Options {
     Precision precision = Precision::Float32;
     int threadCount = 0;     ///< chosen by OpenMP
     bool isCounting = false; ///< count the work of the traversal
+    /// Charge each ray; a sample is then its box and triangle tests by PathStage. In single precision, and where
+    /// canChargeWork().
+    bool isCharging = false;
 };
 
 struct Result {
     Film film;
-    RayCounts rays;  ///< of the samples that were added to the film
-    WorkCounts work; ///< all 0 unless counting was asked for, or samples show the work
+    RayCounts rays;      ///< of the samples that were added to the film
+    WorkCounts work;     ///< all 0 unless counting was asked for, or samples show the work
+    WorkLedger ledger{}; ///< empty unless charging was asked for
 };
+
+/// Whether the integrator says where its rays arrive: those of light do, views do not.
+[[nodiscard]] bool canChargeWork(const RenderSettings &settings);
 
 /// Adds the missing samples to `begun`, whose crop is that of the scene's image. The result does not depend on the
 /// number of threads, nor, with Float32, on which samples were there. `hooks.shouldStop` is asked after each sample.

@@ -97,6 +97,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         const Hit<Real> hit = closestHit(scene_, segment.ray, counter_);
         traceEvent(layout::traceHit, hit.primitive, {hit.distance, hit.u, hit.v});
         if (hit.primitive == layout::noPrimitive) {
+            counter_.arrive(scene_, depth_, hit.primitive, 0);
             if (segment.medium != layout::noMaterial)
                 tint(segment, segment.medium);
             if (transparency_.seesThrough())
@@ -109,6 +110,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         std::uint32_t materialIndex;
         const Surface<Real> surface =
             hitSurface(scene_, hit, segment.ray.origin, segment.ray.direction, materialIndex);
+        counter_.arrive(scene_, depth_, hit.primitive, materialIndex);
         const MaterialRecord<Real> material = hitMaterial(scene_, hit, scene_.fetchMaterial(materialIndex),
                                                           layout::texturesMaterials, surface.position);
         const bool isEntering = dotProduct(segment.ray.direction, surface.normal) < 0;
@@ -185,6 +187,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                                 primitive,
                                 {pixel_, sampleIndex_, 2 * depth_ + 1}};
             const Shadow shadow = castShadowRay(scene_, ray, distance, counter_);
+            counter_.followShadowRay();
             traceEvent(layout::traceVisibility,
                        shadow.isBlocked  ? layout::visibilityBlocked
                        : shadow.isDimmed ? layout::visibilityDimmed

@@ -5,6 +5,7 @@
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
 #include "host/report/provenance.h"
+#include "host/report/work_charges.h"
 #include "host/report/work_histogram.h"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ struct Profile {
     std::vector<std::string> leftOut;     ///< by the time limit
     std::optional<WorkCounts> work;       ///< of a frame with a stack, if requested
     std::optional<KernelWork> kernelWork; ///< of a frame of the measured kernel, if requested
+    std::optional<WorkCharges> charges;   ///< of the first samples, if requested
     std::vector<WorkBin> workHistogram;   ///< of the pixels of such a frame
     std::uint64_t sceneBytes = 0;         ///< of the scene's arrays
     std::vector<StageRecord> hostStages;  ///< outside of frames: load, build, open, write

@@ -88,6 +88,8 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
                          {"slotsPerSubgroup", lanes.slotsPerSubgroup},
                          {"busyShare", lanes.busyShare()}};
     }
+    if (profile.charges)
+        json["charges"] = chargesToJson(*profile.charges);
     for (const WorkBin &bin : profile.workHistogram)
         json["testsPerSample"].push_back({{"from", bin.begin}, {"to", bin.end}, {"pixels", bin.pixelCount}});
     return json;

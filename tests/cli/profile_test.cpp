@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 
 namespace hyalite::core::testing {
@@ -107,6 +109,37 @@ TEST_F(ProfileCommand, CountsTheWorkOfTheIntegratorThatIsMeasured) {
     EXPECT_EQ(onDevice.at("testsPerSample"), onCpu.at("testsPerSample"));
     EXPECT_EQ(heatOfDevice.pixels(), readImage(folder / "heat.png").image.pixels());
     EXPECT_FALSE(onCpu.contains("timeLimit"));
+}
+
+TEST_F(ProfileCommand, ChargesTheSameRaysOnEveryDevice) {
+    store("sheet.obj", wavySheetObj(8));
+    store("sheet.json", wavySheetScene());
+    const std::string line =
+        "sheet.json --integrator path --counts --html page.html --no-verify" + smallProfiled;
+    const nlohmann::json onDevice = profile(line + " --device " + softwareDevice());
+    const nlohmann::json onCpu = profile(line + " --device cpu");
+    const nlohmann::json &charges = onCpu.at("charges");
+    EXPECT_EQ(onDevice.at("charges"), charges);
+    EXPECT_EQ(reportInPage(load("page.html")).at("charges"), charges);
+    for (const char *stage : {"primary", "further", "shadow"})
+        EXPECT_TRUE(reportInPage(load("page.html")).at("stagePictures").contains(stage));
+    EXPECT_EQ(charges.at("samplesPerPixel"), 2);
+    std::set<std::string> names;
+    std::map<std::string, std::uint64_t> sums;
+    for (const nlohmann::json &row : charges.at("objects").at("rows")) {
+        names.insert(row.value("name", ""));
+        for (const auto &[stage, work] : row.at("work").items())
+            for (const auto &[kind, count] : work.items())
+                sums[kind] += count.get<std::uint64_t>();
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"", "sheet.obj", "sphere 0", "sphere 1"}));
+    EXPECT_EQ(sums["boxesTested"], onCpu.at("work").at("withStack").at("boxesTested"));
+    EXPECT_EQ(sums["trianglesTested"], onCpu.at("work").at("withStack").at("trianglesTested"));
+    EXPECT_EQ(sums["rays"], onCpu.at("work").at("rays").at("total"));
+    EXPECT_TRUE(contains(run("profile " + line + " --device cpu").output, "\ndearest      "));
+    EXPECT_FALSE(profile("sheet.json --device cpu" + smallProfiled).contains("charges"));
+    EXPECT_FALSE(
+        profile("sheet.json --counts --integrator ao --device cpu" + smallProfiled).contains("charges"));
 }
 
 TEST_F(ProfileCommand, APageHasBothProfiles) {

@@ -36,12 +36,23 @@ Profile fullProfile() {
     profile.frames.back().finishedShare = 0.25;
     profile.work = WorkCounts{10, 20, 30, 4};
     profile.kernelWork = KernelWork{"skip-list", {50, 60, 70, 0}, {80, 900, 32}};
+    WorkLedger ledger;
+    ledger.charge(PathStage::Primary, 0, 0, {2, 10, 1});
+    ledger.charge(PathStage::Further, 1, 1, {5, 20, 3});
+    ledger.charge(PathStage::Shadow, 2, 1, {7, 50, 5});
+    profile.charges = chargesOf(ledger, 3, {"teapot", "floor"}, {"clay"});
     profile.workHistogram = {{1.0, 2.0, 75}, {2.0, 4.0, 25}};
     return profile;
 }
 
 std::string pageOf(const Profile &profile) { return profileHtml(profile, bytesOf("\x89PNG")); }
-std::string fullPage() { return profileHtml(fullProfile(), bytesOf("\x89PNG"), bytesOf("foo")); }
+StagePictures stagePngs() {
+    StagePictures pngs;
+    for (std::size_t stage = 0; stage < pngs.size(); ++stage)
+        pngs[stage] = {static_cast<std::byte>('0' + stage)};
+    return pngs;
+}
+std::string fullPage() { return profileHtml(fullProfile(), bytesOf("\x89PNG"), bytesOf("foo"), stagePngs()); }
 
 /// What tests/report/page_script.js prints about a page.
 std::string runScript(const std::string &page, const std::string &mode = "") {
@@ -108,6 +119,7 @@ TEST(ProfileHtml, HoldsTheReportAndNeedsNothingElse) {
     nlohmann::json report = profileToJson(fullProfile());
     report["picture"] = "iVBORw==";
     report["heatMap"] = "Zm9v";
+    report["stagePictures"] = {{"primary", "MA=="}, {"further", "MQ=="}, {"shadow", "Mg=="}};
     EXPECT_EQ(reportInPage(page), report);
     EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
     EXPECT_TRUE(page.ends_with("</html>\n"));
@@ -144,7 +156,7 @@ TEST(ProfileHtml, ShowsTwoProfilesAndWhatHasChanged) {
     old.frames.back().timeline.dispatches[0].rays.shadow += 50;
     const Profile now = handMadeProfile({0.98, 0.99, 1.0, 1.01, 1.02});
     const BaselineVerdict verdict = verdictOn(old, now);
-    const std::string page = profileHtml(now, bytesOf("\x89PNG"), {}, &verdict);
+    const std::string page = profileHtml(now, bytesOf("\x89PNG"), {}, {}, &verdict);
     EXPECT_EQ(reportInPage(page).at("baseline"), profileToJson(old));
     EXPECT_EQ(reportInPage(page).at("comparison"), comparisonToJson(verdict));
     const std::string markup = runScript(page);
@@ -167,10 +179,20 @@ TEST(ProfileHtml, ShowsTwoProfilesAndWhatHasChanged) {
         EXPECT_TRUE(std::regex_match(path, others)) << path;
 }
 
+TEST(ProfileHtml, NamesTheDearestObjects) {
+    const std::string markup = runScript(fullPage());
+    for (const char *part :
+         {"<b>floor</b> with 61.8 %", "<b>teapot</b> with 25.8 %", "of the box and triangle tests",
+          "primary rays\n12.4 %", "nothing: rays that leave the scene", "first 3 samples of each pixel",
+          "base64,Mg==\"",
+          "<tr><td>floor</td><td>0</td><td>0</td><td>7</td><td>50</td><td>5</td><td>61.8 %</td>"})
+        EXPECT_NE(markup.find(part), std::string::npos) << part << markup;
+}
+
 TEST(ProfileHtml, NamesARegression) {
     const BaselineVerdict verdict = verdictOn(handMadeProfile({1.0, 1.0}), handMadeProfile({1.5, 1.5}));
     const std::string markup =
-        runScript(profileHtml(handMadeProfile({1.5, 1.5}), bytesOf("\x89PNG"), {}, &verdict));
+        runScript(profileHtml(handMadeProfile({1.5, 1.5}), bytesOf("\x89PNG"), {}, {}, &verdict));
     for (const char *part : {"A REGRESSION by the limit", "slower, REGRESSION", "All 6 counts are equal",
                              "<tr class=\"changed\">"})
         EXPECT_NE(markup.find(part), std::string::npos) << part << markup;
@@ -181,7 +203,7 @@ TEST(ProfileHtml, ABaselineOfFewFiguresIsShownToo) {
     const Profile now = handMadeProfile({1.0});
     BaselineVerdict verdict = verdictOn(now, now);
     verdict.baseline = {{"device", nullptr}};
-    const std::string markup = runScript(profileHtml(now, bytesOf("\x89PNG"), {}, &verdict));
+    const std::string markup = runScript(profileHtml(now, bytesOf("\x89PNG"), {}, {}, &verdict));
     EXPECT_NE(markup.find("Before: –"), std::string::npos) << markup;
     EXPECT_NE(markup.find("<td>unknown</td>"), std::string::npos) << "a single frame has no noise";
     for (const char *part : {"undefined", "NaN", "null"})

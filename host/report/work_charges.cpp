@@ -1,0 +1,89 @@
+#include "host/report/work_charges.h"
+
+#include "host/report/figure_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace hyalite::core {
+
+namespace {
+
+std::vector<WorkCharge> chargesOf(const std::vector<WorkByStage> &account,
+                                  const std::vector<std::string> &names) {
+    std::vector<WorkCharge> charges;
+    for (std::size_t number = 0; number < account.size(); ++number)
+        if (sumOf(account[number]).rays > 0)
+            charges.push_back({number == 0 ? "" : names.at(number - 1), account[number]});
+    std::ranges::stable_sort(charges, [](const WorkCharge &a, const WorkCharge &b) {
+        const ChargedWork ofA = sumOf(a.work);
+        const ChargedWork ofB = sumOf(b.work);
+        return ofA.tests() != ofB.tests() ? ofA.tests() > ofB.tests() : ofA.rays > ofB.rays;
+    });
+    return charges;
+}
+
+nlohmann::ordered_json workToJson(const WorkByStage &work) {
+    nlohmann::ordered_json json;
+    for (std::size_t stage = 0; stage < work.size(); ++stage)
+        json[pathStageNames[stage]] = {{"rays", work[stage].rays},
+                                       {"boxesTested", work[stage].boxes},
+                                       {"trianglesTested", work[stage].triangles}};
+    return json;
+}
+
+nlohmann::ordered_json rowsToJson(std::span<const WorkCharge> charges, std::size_t maxRows) {
+    const std::size_t rowCount = std::min(charges.size(), maxRows);
+    nlohmann::ordered_json json{{"rows", nlohmann::ordered_json::array()}};
+    for (const WorkCharge &charge : charges.first(rowCount)) {
+        nlohmann::ordered_json row;
+        if (!charge.name.empty())
+            row["name"] = charge.name;
+        row["work"] = workToJson(charge.work);
+        json["rows"].push_back(std::move(row));
+    }
+    if (rowCount == charges.size())
+        return json;
+    WorkByStage others{};
+    for (const WorkCharge &charge : charges.subspan(rowCount))
+        for (std::size_t stage = 0; stage < others.size(); ++stage)
+            others[stage] += charge.work[stage];
+    json["otherCount"] = charges.size() - rowCount;
+    json["others"] = workToJson(others);
+    return json;
+}
+
+} // namespace
+
+WorkCharges chargesOf(const WorkLedger &ledger, std::uint32_t samplesPerPixel,
+                      const std::vector<std::string> &objects, const std::vector<std::string> &materials) {
+    return {samplesPerPixel, ledger.totals(), chargesOf(ledger.objects, objects),
+            chargesOf(ledger.materials, materials)};
+}
+
+std::string dearestText(const WorkCharges &charges) {
+    const bool isTested = sumOf(charges.totals).tests() > 0;
+    const auto valueOf = [&](const WorkByStage &work) {
+        const ChargedWork sum = sumOf(work);
+        return static_cast<double>(isTested ? sum.tests() : sum.rays);
+    };
+    std::string text;
+    std::size_t count = 0;
+    for (const WorkCharge &object : charges.objects)
+        if (!object.name.empty() && count++ < 3)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", object.name,
+                                shareText(valueOf(object.work) / std::max(valueOf(charges.totals), 1.0)));
+    return text.empty() ? "no object is met"
+                        : fmt::format("{} of the {}", text, isTested ? "box and triangle tests" : "rays");
+}
+
+nlohmann::ordered_json chargesToJson(const WorkCharges &charges, std::size_t maxRows) {
+    return {{"samplesPerPixel", charges.samplesPerPixel},
+            {"stages", workToJson(charges.totals)},
+            {"objects", rowsToJson(charges.objects, maxRows)},
+            {"materials", rowsToJson(charges.materials, maxRows)}};
+}
+
+} // namespace hyalite::core
