@@ -26,6 +26,9 @@
 
 namespace hyalite::core {
 
+/// Whether a page may show what the integrator makes: its samples are colours.
+[[nodiscard]] bool isShowable(const IntegratorRow &row);
+
 struct ViewRequest {
     SceneOptions scene;
     std::vector<RendererNames> renderers{{"auto"}}; ///< one, or two that are compared
