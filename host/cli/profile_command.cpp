@@ -203,10 +203,11 @@ void addProfileCommand(CLI::App &app, CommandContext &context) {
     addMeasurementOptions(*command, options->measurement);
     command->add_flag("--quiet", options->isQuiet, "show no progress");
     addFileOptions(*command, options->paths);
-    command->add_flag("--counts", options->measurement.isCounting,
-                      "render again and count nodes, boxes and triangles, of the same rays with a stack and of "
-                      "the kernel's own traversal, how busy the kernel's lanes are, and which objects and "
-                      "materials the rays work for");
+    command->add_flag(
+        "--counts", options->measurement.isCounting,
+        "render again and count nodes, boxes and triangles, of the same rays with a stack and of "
+        "the kernel's own traversal, how busy the kernel's lanes are, and which objects and "
+        "materials the rays work for");
     addBaselineOptions(*command, *options);
     command->callback([options, &context] { context.exitCode = runProfile(*options, context.commandLine); });
 }

@@ -200,6 +200,8 @@ class MeasurementRun {
         profile_.charges = chargesOf(result.ledger, static_cast<std::uint32_t>(settings.samplesPerPixel),
                                      scene_.packed.namesOf(Integrator::ObjectNumber),
                                      scene_.packed.namesOf(Integrator::MaterialNumber));
+        if (sumOf(profile_.charges->totals).tests() == 0)
+            return; // a few spheres, without a tree
         const Image means = result.film.toImage();
         for (glm::length_t stage = 0; stage < 3; ++stage) {
             std::vector<float> tests;

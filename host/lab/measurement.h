@@ -43,7 +43,8 @@ struct Measurement {
     std::optional<std::string> fault; ///< how the device differs from the CPU twin; nothing was measured then
     Film film{Crop{}};                ///< of a measured frame
     std::optional<Drawing> heatMap;   ///< boxes and triangles tested, in false colours
-    /// By PathStage, the boxes and triangles tested, in false colours; empty unless rays were charged.
+    /// By PathStage, the boxes and triangles tested, in false colours; empty unless rays were charged,
+    /// and tested something.
     std::vector<Drawing> stagePictures{};
     bool isCut = false; ///< the time limit left out what a baseline is compared with
 };
