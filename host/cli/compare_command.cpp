@@ -44,6 +44,11 @@ void addCompareCommand(CLI::App &app, CommandContext &context) {
         app.add_subcommand("compare", "render a scene twice and compare the images bit for bit");
     const auto options = std::make_shared<CompareOptions>();
     addSceneOptions(*command, options->scene);
+    command
+        ->add_option(
+            "scenes", options->moreScenes,
+            "more scenes, one after another by the same options; --html is an index of their pages then")
+        ->type_name("SCENE...");
     command->add_option("--device", options->comparison.device, "the first renderer: as for `hyalite render`")
         ->type_name("DEVICE")
         ->capture_default_str();

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <vector>
 
 namespace hyalite::core {
@@ -29,6 +30,9 @@ std::uint32_t secondSeedOf(const CompareOptions &options, std::uint32_t firstSee
 } // namespace
 
 ExitCode runStatisticalCompare(const CompareOptions &options, const std::string &commandLine) {
+    if (!options.moreScenes.empty())
+        throw Error(ErrorKind::Usage, fmt::format("--statistical: found {} scenes; allowed: for one",
+                                                  options.moreScenes.size() + 1));
     const std::vector<NamedFile> outputs{{"--report", options.report}, {"--junit", options.junit}};
     requireDistinctFiles(outputs, {resolveScene(options.scene.scene).string()});
     RequestedFile reportFile(options.report);
@@ -62,8 +66,10 @@ ExitCode runStatisticalCompare(const CompareOptions &options, const std::string 
         json["passed"] = result.isPassed();
         reportFile.store(jsonText(json));
     }
-    if (junitFile)
-        junitFile.store(comparisonToJunit(run, scene, watch.lap().seconds(), failureOf(result)));
+    if (junitFile) {
+        const TestSuite suite = comparisonSuite(run, scene, watch.lap().seconds(), failureOf(result));
+        junitFile.store(comparisonsToJunit(std::span(&suite, 1)));
+    }
     return result.isPassed() ? ExitCode::Ok : ExitCode::AnswerIsNo;
 }
 

@@ -75,7 +75,6 @@ struct Findings {
     const Compared &compared;
     const Verdict &verdict;
     nlohmann::ordered_json origin{}; ///< of comparisonRunToJson()
-    double seconds = 0.0;            ///< of both renders and their comparison
 };
 
 nlohmann::ordered_json reportOf(const Findings &findings) {
@@ -123,7 +122,7 @@ class CompareFiles {
   public:
     explicit CompareFiles(const CompareOptions &options)
         : heatMapPath_(options.heatMap), heatMap_(requirePng(options.heatMap)), report_(options.report),
-          html_(options.html), junit_(options.junit) {}
+          html_(options.html) {}
 
     void requireSize(const Crop &crop) const {
         if (heatMap_)
@@ -141,9 +140,6 @@ class CompareFiles {
             report_.store(jsonText(reportOf(findings)));
         if (html_)
             html_.store(pageOf(findings));
-        if (junit_)
-            junit_.store(comparisonToJunit(findings.run, findings.scene, findings.seconds,
-                                           findings.verdict.isPassed ? "" : findings.verdict.failure));
     }
 
   private:
@@ -157,7 +153,6 @@ class CompareFiles {
     RequestedFile heatMap_;
     RequestedFile report_;
     RequestedFile html_;
-    RequestedFile junit_;
 };
 
 Compared compareRenders(const CompareOptions &options, const Tolerance &tolerance, const ComparisonRun &run,
@@ -222,7 +217,7 @@ void printOutliers(const CompareOptions &options, const Tolerance &tolerance, co
 
 } // namespace
 
-ExitCode runCompare(const CompareOptions &options, const std::string &commandLine) {
+ComparedScene compareScene(const CompareOptions &options, const std::string &commandLine) {
     const Tolerance tolerance = parseTolerance(options.tolerance);
     const std::vector<NamedFile> outputs{{"--diff", options.heatMap},
                                          {"--report", options.report},
@@ -247,8 +242,14 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     const Verdict verdict = isAgainstOracle(options)
                                 ? judgeOutliers(scene, compared, isWithinShare)
                                 : judgeBits(run, scene, compared, isWithinShare, isDefault(tolerance));
-    files.write({run, scene, compared, verdict, comparisonRunToJson(run, scene, commandLine), seconds});
-    return verdict.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+    files.write({run, scene, compared, verdict, comparisonRunToJson(run, scene, commandLine)});
+    const std::string failure = verdict.isPassed ? "" : verdict.failure;
+    return {comparisonSuite(run, scene, seconds, failure),
+            {.title = scene.loaded.file.filename().string(),
+             .verdict = verdict.isPassed ? verdict.text : failure,
+             .isPassed = verdict.isPassed,
+             .picture = thumbnail(compared.imageA),
+             .errors = thumbnail(compared.comparison.flipMap)}};
 }
 
 } // namespace hyalite::core

@@ -120,12 +120,14 @@ nlohmann::ordered_json tracesToJson(Backend &first, Backend &second, const Prepa
     return {{"step", divergence.eventIndex}, {"first", stepsBy(first)}, {"second", stepsBy(second)}};
 }
 
-std::string comparisonToJunit(const ComparisonRun &run, const PreparedScene &scene, double seconds,
-                              const std::string &failure) {
+TestSuite comparisonSuite(const ComparisonRun &run, const PreparedScene &scene, double seconds,
+                          const std::string &failure) {
     const std::string renderers =
         fmt::format("{} against {}", run.first->description(), run.second->description());
-    const std::vector<TestSuite> suites{
-        {renderers, {{"hyalite compare", scene.loaded.file.string(), seconds, failure}}}};
+    return {renderers, {{"hyalite compare", scene.loaded.file.string(), seconds, failure}}};
+}
+
+std::string comparisonsToJunit(std::span<const TestSuite> suites) {
     return junitText("hyalite compare", suites);
 }
 

@@ -4,12 +4,14 @@
 #include "host/engine/open_backends.h"
 #include "host/image/comparison.h"
 #include "host/reference/divergence.h"
+#include "host/report/junit.h"
 
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,9 +68,11 @@ findFirstDivergence(Backend &first, Backend &second, const PreparedScene &scene,
 [[nodiscard]] nlohmann::ordered_json tracesToJson(Backend &first, Backend &second, const PreparedScene &scene,
                                                   const glm::uvec2 &pixel, const Divergence &divergence);
 
-/// The verdict on a scene as JUnit XML. No failure: it passed.
-[[nodiscard]] std::string comparisonToJunit(const ComparisonRun &run, const PreparedScene &scene,
-                                            double seconds, const std::string &failure);
+/// The verdict on a scene as a suite of JUnit XML. No failure: it passed.
+[[nodiscard]] TestSuite comparisonSuite(const ComparisonRun &run, const PreparedScene &scene, double seconds,
+                                        const std::string &failure);
+/// The text of suites of comparisons.
+[[nodiscard]] std::string comparisonsToJunit(std::span<const TestSuite> suites);
 
 /// The beginning of a report on two renders.
 [[nodiscard]] nlohmann::ordered_json comparisonRunToJson(const ComparisonRun &run, const PreparedScene &scene,
