@@ -7,6 +7,7 @@
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
 #                                    them or those named: parallel, mpi, slurm, image, kubernetes
+#   cmake/run.sh test-view           the page of `hyalite view`, in Chromium
 #   cmake/run.sh build               builds only
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
@@ -31,6 +32,7 @@ needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-util
                   python3-openimageio)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
+needed_for_view=(chromium nodejs)
 needed_for_bench=(libbenchmark-dev libembree-dev)
 needed_for_check=(clang-format-14 clang-tidy-14 libomp-14-dev)
 needed_for_fuzz=(clang-14 libclang-rt-14-dev libomp-14-dev)
@@ -174,6 +176,12 @@ test-farm)
     [[ " ${templates[*]} " != *" mpi "* ]] || options=(-DHYALITE_MPI=ON)
     build_all "$(tests_as_before)" "${options[@]}"
     exec "$root/tests/farm/run.sh" "$build" "$@"
+    ;;
+test-view)
+    install_missing "${needed_for_view[@]}"
+    command -v npm >/dev/null || install_missing npm
+    build_all "$(tests_as_before)"
+    exec "$root/tests/view/run.sh" "$build" "${@:2}"
     ;;
 build)
     build_all "$(tests_as_before)"

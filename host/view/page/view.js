@@ -213,7 +213,7 @@ function showComparison() {
     const {samples, pixels} = state.difference;
     const count = state.width * state.height;
     element("difference").textContent = samples === 0 ? "Nothing is compared yet."
-        : `At ${samples} samples ${pixels === 0 ? "no" : pixels} of ${count} pixels ${pixels === 1 ? "differs" : "differ"} in any bit.`;
+        : `At ${samples} samples ${pixels === 0 ? "none" : pixels} of ${count} pixels ${pixels > 1 ? "differ" : "differs"} in any bit.`;
     element("difference").classList.toggle("is-wrong", pixels > 0);
     for (const button of element("modes").children)
         button.setAttribute("aria-pressed", button.dataset.mode === mode);
@@ -268,7 +268,6 @@ function takeState(now) {
                element("cameras").value);
     setValue(element("exposure"), exposureNow());
     element("exposure-value").textContent = exposureNow().toFixed(2);
-    element("command").value = state.command;
     showRenderers();
     showComparison();
     showStatus();
@@ -280,7 +279,21 @@ function takeState(now) {
         loadFrame(renderer);
 }
 
+// The program knows neither the exposure nor the curve of a page.
+function commandNow() {
+    const own = [];
+    let command = state.command;
+    if (exposureNow() !== state.exposure) {
+        command = command.replace(/ --exposure=\S+/, "");
+        own.push(`--exposure=${exposureNow()}`);
+    }
+    if (element("tone").value !== "gamma")
+        own.push(`--tone=${element("tone").value}`);
+    return command.replace(/(?= -o picture\.png$)/, own.map(word => ` ${word}`).join(""));
+}
+
 function showLinks() {
+    element("command").value = commandNow();
     const stem = state.scene.replace(/\.[^.]*$/, "");
     const shared = `renderer=${mode === "second" ? 1 : 0}&clean=${state.clean ? 1 : 0}`;
     element("png").href = `/picture.png?${shared}&tone=${element("tone").value}&exposure=${exposureNow()}`;
@@ -513,9 +526,14 @@ function handleKey(event) {
     event.preventDefault();
 }
 
+// A control has the keys that mean something to it.
+function isForControl(event) {
+    return event.target.matches('input[type="number"], select, textarea') ||
+           (event.target.matches('input[type="range"]') && event.key.startsWith("Arrow")) || element("help").open;
+}
+
 document.addEventListener("keydown", event => {
-    const isTyping = event.target.matches("input, select, textarea") || element("help").open;
-    if (state && orbit && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey)
+    if (state && orbit && !isForControl(event) && !event.ctrlKey && !event.metaKey && !event.altKey)
         handleKey(event);
 });
 
