@@ -72,7 +72,7 @@ auto renderCommandOf(const CLI::App &command, const std::string &scene) {
     return [given = givenOptions(command), scene](const ViewChanges &changes, std::optional<Integrator> shown,
                                                   bool isClean) {
         std::vector<std::string> words{"hyalite", "render", scene};
-        std::set<std::string> replaced;
+        std::set<std::string> replaced{"--denoise"};
         std::vector<std::string> added;
         for (const auto &[name, value] : changes) {
             replaced.insert("--" + name);
@@ -82,10 +82,8 @@ auto renderCommandOf(const CLI::App &command, const std::string &scene) {
             replaced.insert("--integrator");
             added.push_back(fmt::format("--integrator={}", nameOf(*shown)));
         }
-        if (isClean) {
-            replaced.insert("--denoise");
+        if (isClean)
             added.emplace_back("--denoise");
-        }
         for (const auto &[name, own] : given)
             if (!replaced.contains(name))
                 words.insert(words.end(), own.begin(), own.end());

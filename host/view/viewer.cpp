@@ -65,6 +65,7 @@ Viewer::Viewer(ViewRequest request, Observer &observer)
         slots_.push_back(std::move(slot));
     }
     scene_.beforeChange = [this] { ++jobNumber_; };
+    isClean_ = scene_.prepared().loaded.settings.isDenoised;
     sceneState_ = describeScene();
     runningThreads_ = 1 + static_cast<int>(slots_.size());
     for (const std::unique_ptr<Slot> &slot : slots_)

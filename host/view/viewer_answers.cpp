@@ -39,7 +39,8 @@ nlohmann::ordered_json Viewer::state() const {
             json["integrators"].push_back({{"name", row.name}, {"help", row.help}});
     json["fault"] = fault_;
     json["told"] = told_;
-    json["command"] = request_.renderCommand ? request_.renderCommand(changes_, shown_, isClean_) : "";
+    const bool isClean = isClean_ && json["canBeClean"];
+    json["command"] = request_.renderCommand ? request_.renderCommand(changes_, shown_, isClean) : "";
     json["renderers"] = nlohmann::json::array();
     for (const std::unique_ptr<Slot> &slot : slots_) {
         nlohmann::ordered_json &renderer = json["renderers"].emplace_back();
@@ -80,7 +81,8 @@ std::optional<Pick> Viewer::pick(double x, double y) const {
     const std::shared_lock reading(scene_.mutex());
     const PreparedScene &prepared = scene_.prepared();
     const PackedScene &packed = prepared.packed;
-    const reference::SceneView<float> view(packed, layout::samplerCentre);
+    reference::SceneView<float> view(packed, layout::samplerCentre);
+    view.frame.lensScale = 0.0F; // what is out of focus has its place, too
     const Crop &crop = prepared.crop;
     const glm::uvec2 pixel(crop.x0 + std::clamp(static_cast<int>(x * crop.width()), 0, crop.width() - 1),
                            crop.y0 + std::clamp(static_cast<int>(y * crop.height()), 0, crop.height() - 1));

@@ -22,4 +22,5 @@ if ! cmp -s package-lock.json node_modules/installed; then
 fi
 [ $# -gt 0 ] || set -- $(cd "$source" && basename -s .test.mjs -a ./*.test.mjs)
 export PROGRAM=$build/bin/hyalite
+export GALLIVM_PERF=nopt LP_NATIVE_VECTOR_WIDTH=128 # lavapipe compiles faster
 exec node --test --test-reporter=spec "${@/%/.test.mjs}"

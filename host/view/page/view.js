@@ -230,7 +230,7 @@ function showStatus() {
 
 function takeCamera() {
     const camera = state.camera;
-    if (isMoving || hasOwnCamera || isSending)
+    if (state.isChanging || isMoving || hasOwnCamera || isSending) // to another camera, maybe one of this page
         return;
     const near = orbit && lengthOf(subtract(orbit.position, camera.position)) < 1e-6 * orbit.distance &&
                  dot(orbit.direction, camera.direction) > 1 - 1e-9;
@@ -249,6 +249,8 @@ function takeCamera() {
 
 function takeState(now) {
     state = now;
+    if (!state.isChanging && !isSending)
+        wishedFov = null;
     document.title = `${state.scene} - Hyalite`;
     element("scene").textContent = state.scene;
     fillSelect(element("show"), [["", `${state.integrator} (the scene's)`], ...state.integrators.map(
@@ -434,10 +436,16 @@ function setExposure(stops) {
     draw();
 }
 
+let wishedFov = null;
+
 function setFov(degrees) {
-    if (state.camera.type === "perspective")
-        send({"fov": Math.min(Math.max(degrees, 1), 170)});
+    if (state.camera.type !== "perspective")
+        return;
+    wishedFov = Math.min(Math.max(degrees, 1), 170);
+    send({"fov": wishedFov});
 }
+
+function fovNow() { return wishedFov ?? state.camera.fov; }
 
 function show(name) { send({"show": name || null}); }
 
@@ -497,8 +505,8 @@ function handleKey(event) {
         "+": () => dolly(0.9),
         "=": () => dolly(0.9),
         "-": () => dolly(1 / 0.9),
-        "[": () => setFov(state.camera.fov - 5),
-        "]": () => setFov(state.camera.fov + 5),
+        "[": () => setFov(fovNow() - 5),
+        "]": () => setFov(fovNow() + 5),
         c: () => state.canBeClean && send({"clean": !state.clean}),
         e: () => setExposure(exposureNow() + 0.5),
         E: () => setExposure(exposureNow() - 0.5),
