@@ -7,11 +7,13 @@
 #include "host/cli/terminal_observer.h"
 #include "host/process/signals.h"
 #include "host/scene/names.h"
+#include "host/scene/settings_table.h"
 #include "host/view/view_site.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -41,6 +43,13 @@ struct ViewerOptions {
 
 /// Of the viewer alone: `render` has no such options.
 const std::set<std::string> ofViewer{"--port", "--listen", "--against", "--quiet"};
+
+/// Whether `render` takes this option with the integrator that is shown.
+bool hasEffect(const std::string &name, std::optional<Integrator> shown) {
+    const auto setting = std::ranges::find(settingsTable, name.substr(2), &Setting::option);
+    return !shown || setting == settingsTable.end() || setting->integrators.empty() ||
+           std::ranges::find(setting->integrators, *shown) != setting->integrators.end();
+}
 
 /// The words of an option as it was given.
 std::vector<std::string> wordsOf(const CLI::Option &option) {
@@ -85,7 +94,7 @@ auto renderCommandOf(const CLI::App &command, const std::string &scene) {
         if (isClean)
             added.emplace_back("--denoise");
         for (const auto &[name, own] : given)
-            if (!replaced.contains(name))
+            if (!replaced.contains(name) && hasEffect(name, shown))
                 words.insert(words.end(), own.begin(), own.end());
         words.insert(words.end(), added.begin(), added.end());
         words.insert(words.end(), {"-o", "picture.png"});

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Drives Chromium through the page of `hyalite view`, as a person would, by the tests in browser/:
 #
-#   tests/view/run.sh BUILD [TEST...]     the build folder, with the program; all files, unless some are named: pictures
+#   tests/view/run.sh BUILD [TEST...]     the build folder, with the program; all files, unless some are named: pictures hands
 #
 # What they need is installed in BUILD/view, where also the screenshots are.
 set -euo pipefail
