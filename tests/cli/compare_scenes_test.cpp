@@ -21,7 +21,8 @@ const std::string ofSeveral = " --device cpu --against cpu-double --spp 1 --widt
 TEST_F(CompareScenes, HaveAnIndexAndAPageEach) {
     store("a & b.json", squareScene());
     store("square.obj", squareObj());
-    const Outcome outcome = run("compare spheres 'a & b.json' cat --html all.html --junit all.xml" + ofSeveral);
+    const Outcome outcome =
+        run("compare spheres 'a & b.json' cat --html all.html --junit all.xml" + ofSeveral);
     EXPECT_EQ(outcome.exitCode, 0) << outcome;
     EXPECT_TRUE(contains(outcome.output, "3 of 3 scenes passed")) << outcome;
     const std::string index = load("all.html");
