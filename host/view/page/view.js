@@ -337,7 +337,7 @@ async function clickAt(event) {
     const place = shareOf(event);
     const pick = await pickAt(...place);
     showPoint(pick, place);
-    if (pick && event.altKey)
+    if (pick && event.altKey && state.camera.type === "perspective")
         send({"focus-distance": pick.depth});
 }
 
@@ -549,8 +549,13 @@ new ResizeObserver(fitCanvas).observe(element("stage"));
 
 // ---- News
 
+let events = null;
+
 function listen() {
-    const events = new EventSource("/events");
+    events?.close();
+    if (document.hidden)
+        return;
+    events = new EventSource("/events");
     events.onopen = () => showFault("");
     events.onmessage = event => takeState(JSON.parse(event.data));
     events.onerror = () => {
@@ -559,4 +564,6 @@ function listen() {
             setTimeout(listen, 3000);
     };
 }
+// A browser has six connections to a program for all tabs, and news takes one: hidden tabs have none.
+document.addEventListener("visibilitychange", listen);
 listen();

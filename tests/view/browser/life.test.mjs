@@ -41,6 +41,21 @@ test("a tab follows another", async () => {
     await turn(page);
 });
 
+test("a browser has room for eight tabs", async () => {
+    const tabs = [];
+    for (let i = 0; i < 8; ++i) { // of one profile, which has six connections
+        tabs.push(await browser.newPage());
+        await tabs[i].goto(viewer.url);
+        await settle(tabs[i]);
+    }
+    await tabs[0].bringToFront();
+    await turn(tabs[0]);
+    for (const tab of tabs)
+        await tab.close();
+    await page.bringToFront();
+    await turn(page);
+});
+
 test("a browser that is killed leaves the viewer answering", async () => {
     const other = await openBrowser();
     await settle(await open(other, viewer));

@@ -7,7 +7,7 @@ const folder = new Folder;
 let browser, viewer, page;
 before(async () => {
     [browser, viewer] = await Promise.all([openBrowser(),
-        Viewer.start(folder, storeRoom(folder), "--device", "cpu")]);
+        Viewer.start(folder, storeRoom(folder), "--device", "cpu", "--max-depth", "4")]);
     page = await open(browser, viewer);
 });
 after(async () => {
@@ -22,6 +22,11 @@ test("clean", async () => {
     await page.click("#clean");
     await until(page, now => now.clean);
     await assertShowsItsCommand(page, folder, "clean");
+    await page.keyboard.press("4"); // which no denoiser cleans
+    await until(page, now => now.show !== null && !now.canBeClean);
+    await assertShowsItsCommand(page, folder, "a layer");
+    await page.keyboard.press("0");
+    await until(page, now => now.show === null);
     await page.keyboard.press("c");
     await until(page, now => !now.clean);
 });
