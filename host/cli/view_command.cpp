@@ -76,31 +76,33 @@ std::vector<std::pair<std::string, std::vector<std::string>>> givenOptions(const
     return given;
 }
 
-/// Makes the command line that renders a view.
-auto renderCommandOf(const CLI::App &command, const std::string &scene) {
-    return [given = givenOptions(command), scene](const ViewChanges &changes, std::optional<Integrator> shown,
-                                                  bool isClean) {
-        std::vector<std::string> words{"hyalite", "render", scene};
+/// Makes the command line that renders a view. `against`: the second renderer.
+auto renderCommandOf(const CLI::App &command, const std::string &scene, const std::string &against) {
+    return [given = givenOptions(command), scene, against](const ViewToRender &view) {
         std::set<std::string> replaced{"--denoise"};
         std::vector<std::string> added;
-        for (const auto &[name, value] : changes) {
+        for (const auto &[name, value] : view.changes) {
             replaced.insert("--" + name);
             added.push_back(fmt::format("--{}={}", name, textOf(value)));
         }
-        if (shown) {
+        if (view.shown) {
             replaced.insert("--integrator");
-            added.push_back(fmt::format("--integrator={}", nameOf(*shown)));
+            added.push_back(fmt::format("--integrator={}", nameOf(*view.shown)));
         }
-        if (isClean)
-            added.emplace_back("--denoise");
+        if (view.isDenoised)
+            added.emplace_back(*view.isDenoised ? "--denoise" : "--denoise=false");
+        if (view.renderer == 1) {
+            replaced.insert("--device");
+            added.push_back("--device=" + against);
+        }
+        std::vector<std::string> words{"hyalite", "render", scene};
         for (const auto &[name, own] : given)
-            if (!replaced.contains(name) && hasEffect(name, shown))
+            if (!replaced.contains(name) && hasEffect(name, view.shown))
                 words.insert(words.end(), own.begin(), own.end());
         words.insert(words.end(), added.begin(), added.end());
         words.insert(words.end(), {"-o", "picture.png"});
-        std::vector<const char *> pointers;
-        for (const std::string &word : words)
-            pointers.push_back(word.c_str());
+        std::vector<const char *> pointers(words.size());
+        std::ranges::transform(words, pointers.begin(), &std::string::c_str);
         return shellLine(pointers);
     };
 }
@@ -167,7 +169,8 @@ void addViewCommand(CLI::App &app, CommandContext &context) {
                             .threadCount = options->threadCount,
                             .deviceOptions = options->deviceOptions,
                             .commandLine = context.commandLine,
-                            .renderCommand = renderCommandOf(*command, options->scene.scene)};
+                            .renderCommand =
+                                renderCommandOf(*command, options->scene.scene, options->against)};
         if (!options->against.empty())
             request.renderers.push_back({options->against});
         context.exitCode = runView(*options, std::move(request));

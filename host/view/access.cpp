@@ -80,7 +80,7 @@ bool isEqualInConstantTime(std::string_view a, std::string_view b) {
     return difference == 0;
 }
 
-Access::Access(std::string address, int port)
+Access::Access(const std::string &address, int port)
     : isLoopback_(isLoopback(address)), machine_(nameOfMachine()), token_(randomToken()),
       cookieName_(fmt::format("hyalite-{}", port)), cookie_(randomToken()) {}
 

@@ -27,7 +27,7 @@ struct RequestOrigin {
 class Access {
   public:
     /// `address`: where the viewer listens. Beyond loopback, the machine may be called by its number or its own name.
-    Access(std::string address, int port);
+    Access(const std::string &address, int port);
 
     [[nodiscard]] const std::string &token() const { return token_; }
     [[nodiscard]] bool isToken(std::string_view text) const { return isEqualInConstantTime(text, token_); }

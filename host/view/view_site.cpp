@@ -154,7 +154,7 @@ void ViewSite::addRoutes() {
     });
     server_.set_exception_handler([](const Request &, Response &response, std::exception_ptr failure) {
         try {
-            std::rethrow_exception(failure);
+            std::rethrow_exception(std::move(failure));
         } catch (const OverrideError &error) {
             refuse(response, 400, fmt::format("{}: {}", error.name, error.what()));
         } catch (const Error &error) {

@@ -32,6 +32,12 @@ std::optional<Integrator> readShown(const nlohmann::json &wish) {
     throw OverrideError("show", refusalText(wish.dump(), quotedList(names)));
 }
 
+bool readFlag(const std::string &name, const nlohmann::json &wish) {
+    if (!wish.is_boolean())
+        throw OverrideError(name, refusalText(wish.dump(), "true or false"));
+    return wish.get<bool>();
+}
+
 OptionValue readValue(const std::string &name, const nlohmann::json &wish) {
     if (wish.is_boolean())
         return wish.get<bool>();
@@ -67,6 +73,7 @@ Viewer::Viewer(ViewRequest request, Observer &observer)
     scene_.beforeChange = [this] { ++jobNumber_; };
     isClean_ = scene_.prepared().loaded.settings.isDenoised;
     sceneState_ = describeScene();
+    isDenoisedByFile_ = scene_.prepared().givenSettings.isDenoised;
     runningThreads_ = 1 + static_cast<int>(slots_.size());
     for (const std::unique_ptr<Slot> &slot : slots_)
         slot->thread = std::thread([this, &slot = *slot] { work(slot); });
@@ -105,7 +112,7 @@ void Viewer::change(const nlohmann::json &wishes) {
         if (name == "show")
             shown = readShown(wish);
         else if (name == "clean")
-            isClean = std::get<bool>(readValue(name, wish.is_boolean() ? wish : nlohmann::json(false)));
+            isClean = readFlag(name, wish);
         else if (wish.is_null())
             changes.erase(name);
         else
@@ -206,6 +213,7 @@ void Viewer::beginView(Lock &lock) {
     scene_.show(shownOptions_, 1.0, observer_);
     lock.lock();
     sceneState_ = describeScene();
+    isDenoisedByFile_ = scene_.prepared().givenSettings.isDenoised;
     difference_ = {};
     for (const std::unique_ptr<Slot> &slot : slots_) {
         slot->compared.clear();
@@ -248,8 +256,9 @@ nlohmann::ordered_json Viewer::describeScene() const {
     json["scene"] = prepared.loaded.file.filename().string();
     json["width"] = prepared.crop.width();
     json["height"] = prepared.crop.height();
-    json["samplesPerPixel"] = prepared.loaded.settings.samplesPerPixel;
-    json["noise"] = wantedNoise(prepared.loaded.settings);
+    const RenderSettings shown = settingsOf(shown_.value_or(prepared.loaded.settings.integrator));
+    json["samplesPerPixel"] = shown.samplesPerPixel;
+    json["noise"] = wantedNoise(shown);
     json["exposure"] = prepared.loaded.settings.exposureStops;
     json["integrator"] = nameOf(prepared.loaded.settings.integrator);
     json["triangles"] = prepared.packed.triangles.size();

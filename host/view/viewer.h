@@ -29,15 +29,21 @@ namespace hyalite::core {
 /// Whether a page may show what the integrator makes: its samples are colours.
 [[nodiscard]] bool isShowable(const IntegratorRow &row);
 
+/// A view to be rendered to a file.
+struct ViewToRender {
+    const ViewChanges &changes;
+    std::optional<Integrator> shown;  ///< instead of the scene's
+    std::optional<bool> isDenoised{}; ///< other than the scene's file says
+    std::size_t renderer = 0;
+};
+
 struct ViewRequest {
     SceneOptions scene;
     std::vector<RendererNames> renderers{{"auto"}}; ///< one, or two that are compared
     int threadCount = 0;                            ///< 0: all
     DeviceOptions deviceOptions;
     std::string commandLine;
-    /// The command line that renders a view to a file.
-    std::function<std::string(const ViewChanges &changes, std::optional<Integrator> shown, bool isClean)>
-        renderCommand;
+    std::function<std::string(const ViewToRender &)> renderCommand; ///< the command line that does it
 };
 
 /// The point that a pixel shows.
@@ -148,7 +154,7 @@ class Viewer {
                                   SnapshotTaker *snapshots = nullptr);
     void makeClean(Slot &slot, const Job &job, const Film &film, int samples);
     [[nodiscard]] bool isCancelled(const Job &job) const { return jobNumber_ != job.number || isStopping_; }
-    [[nodiscard]] RenderSettings settingsOf(const Job &job) const;
+    [[nodiscard]] RenderSettings settingsOf(Integrator integrator) const;
     void publish(Slot &slot, const Job &job, ViewFrame &&frame, const Film *film = nullptr);
     void compareWithOther(Slot &slot, const std::shared_ptr<const ViewFrame> &frame);
     void tellNews();
@@ -168,6 +174,7 @@ class Viewer {
     ViewChanges changes_;
     std::optional<Integrator> shown_;
     bool isClean_ = false;
+    bool isDenoisedByFile_ = false; ///< the scene's own setting
     std::uint64_t wished_ = 1;
     std::uint64_t applied_ = 0;
     Clock::time_point wishedAt_;

@@ -39,13 +39,16 @@ nlohmann::ordered_json Viewer::state() const {
             json["integrators"].push_back({{"name", row.name}, {"help", row.help}});
     json["fault"] = fault_;
     json["told"] = told_;
-    const bool isClean = isClean_ && json["canBeClean"];
-    json["command"] = request_.renderCommand ? request_.renderCommand(changes_, shown_, isClean) : "";
+    ViewToRender view{changes_, shown_};
+    if (const bool isClean = isClean_ && json["canBeClean"]; isClean != isDenoisedByFile_)
+        view.isDenoised = isClean;
     json["renderers"] = nlohmann::json::array();
     for (const std::unique_ptr<Slot> &slot : slots_) {
         nlohmann::ordered_json &renderer = json["renderers"].emplace_back();
         renderer["name"] = slot->backend->name();
         renderer["description"] = slot->backend->description();
+        renderer["command"] = request_.renderCommand ? request_.renderCommand(view) : "";
+        ++view.renderer;
         renderer["failure"] = slot->failure;
         renderer["isFinished"] = job_.share >= 1.0 && slot->finished == job_.number && !hasWork(*slot);
         renderer["raw"] = slot->raw ? slot->raw->number : 0;

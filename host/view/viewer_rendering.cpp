@@ -105,7 +105,7 @@ void Viewer::work(Slot &slot) {
             const std::shared_lock reading(scene_.mutex());
             if (isCancelled(job)) {
             } else if (!isNew) {
-                makeClean(slot, job, *film, scene_.prepared().loaded.settings.samplesPerPixel);
+                makeClean(slot, job, *film, settingsOf(job.integrator).samplesPerPixel);
             } else if (job.share < 1.0) {
                 preview(slot, job);
             } else {
@@ -126,11 +126,14 @@ void Viewer::work(Slot &slot) {
     changed_.notify_all();
 }
 
-RenderSettings Viewer::settingsOf(const Job &job) const {
-    RenderSettings settings = scene_.prepared().loaded.settings;
-    settings.integrator = job.integrator;
+RenderSettings Viewer::settingsOf(Integrator integrator) const {
+    const PreparedScene &prepared = scene_.prepared();
+    RenderSettings settings = prepared.loaded.settings;
+    settings.integrator = integrator;
     settings.isDenoised = false;
     settings.hasDenoisingData = true; // it counts where the integrator has it
+    if (settings.noise > 0.0 && !isAdaptive(settings) && settings.samplesPerPixel == samplesForNoise)
+        settings.samplesPerPixel = prepared.givenSettings.samplesPerPixel; // the most is for a noise alone
     return settings;
 }
 
@@ -152,7 +155,7 @@ Film Viewer::addSamples(Slot &slot, const Job &job, const RenderSettings &settin
 }
 
 void Viewer::preview(Slot &slot, const Job &job) {
-    RenderSettings settings = settingsOf(job);
+    RenderSettings settings = settingsOf(job.integrator);
     settings.samplesPerPixel = 1;
     settings.noise = 0.0;
     settings.hasDenoisingData = false;
@@ -168,7 +171,7 @@ void Viewer::preview(Slot &slot, const Job &job) {
 
 void Viewer::refine(Slot &slot, const Job &job) {
     const PreparedScene &prepared = scene_.prepared();
-    RenderSettings settings = settingsOf(job);
+    RenderSettings settings = settingsOf(job.integrator);
     const RenderSettings whole = settings;
     {
         RendererIdentity identity = slot.backend->identity(prepared.packed, job.integrator);
@@ -233,13 +236,14 @@ void Viewer::refine(Slot &slot, const Job &job) {
 
 void Viewer::makeClean(Slot &slot, const Job &job, const Film &film, int samples) {
     const PreparedScene &prepared = scene_.prepared();
-    if (!keepsDenoisingData(settingsOf(job)))
+    if (!keepsDenoisingData(settingsOf(job.integrator)))
         return;
     JobObserver observer(*this, job);
     if (slot.views == nullptr || slot.viewsView != job.view) {
-        std::vector<PictureView> wanted;
-        for (const Integrator view : denoiserViews)
-            wanted.push_back({view, true});
+        std::array<PictureView, denoiserViews.size()> wanted{};
+        std::ranges::transform(denoiserViews, wanted.begin(), [](Integrator view) {
+            return PictureView{view, true};
+        });
         auto views = std::make_shared<const std::vector<ViewFilm>>(
             renderViews(*slot.backend, prepared, wanted, {}, {}, observer, TimeLimit()));
         if (isCancelled(job))

@@ -75,6 +75,17 @@ TEST_F(Viewers, ShowAnAdaptiveRender) {
     EXPECT_EQ(viewer.frame(0, false)->image.pixels(), rendered(options).raw.pixels());
 }
 
+// Samples for a noise are many more than a layer needs.
+TEST_F(Viewers, GiveALayerTheSamplesOfTheSceneWhereANoiseIsAskedFor) {
+    ViewRequest request = requestOf(store("ball.json", ballScene(0.5, 5)));
+    setSceneOption(request.scene, "noise", std::string("20%"));
+    Viewer viewer(std::move(request), nobody());
+    viewer.change({{"show", "normal"}});
+    const Json state = waitForAll(viewer);
+    EXPECT_EQ(state["samplesPerPixel"], 5);
+    EXPECT_EQ(viewer.frame(0, false)->samples, 5);
+}
+
 TEST_F(Viewers, CompareTwoRenderers) {
     const std::string scene = store("ball.json", ballScene(0.5, 16));
     const auto differenceOf = [&](const RendererNames &other) {
@@ -104,6 +115,7 @@ TEST_F(Viewers, RefuseWhatIsNotAllowedAndKeepTheRest) {
                                               {{"camera-position", "here"}},
                                               {{"show", "cost"}},
                                               {{"show", 3}},
+                                              {{"clean", "yes"}},
                                               {{"environment", "/etc/passwd"}},
                                               {{"colour", 1}},
                                               {{"spp", Json::object()}},

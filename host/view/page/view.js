@@ -284,7 +284,7 @@ function takeState(now) {
 // The program knows neither the exposure nor the curve of a page.
 function commandNow() {
     const own = [];
-    let command = state.command;
+    let command = state.renderers[mode === "second" ? 1 : 0].command;
     if (exposureNow() !== state.exposure) {
         command = command.replace(/ --exposure=\S+/, "");
         own.push(`--exposure=${exposureNow()}`);

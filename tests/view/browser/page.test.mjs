@@ -107,7 +107,7 @@ test("downloads are what is shown", async () => {
     };
     await page.focus("#picture");
     await page.keyboard.press("ArrowLeft");
-    await until(page, now => now.command.includes("--camera-position"));
+    await until(page, now => now.renderers[0].command.includes("--camera-position"));
     await page.select("#tone", "agx");
     await settle(page);
     const shown = await canvasOf(page);
