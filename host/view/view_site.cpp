@@ -99,7 +99,10 @@ ViewSite::ViewSite(Viewer &viewer, const std::string &address, int port)
       }()),
       access_(address, port_) {
     addRoutes();
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    thread_ = std::thread([this] {
+        server_.listen_after_bind();
+        hasEnded_ = true;
+    });
 }
 
 ViewSite::~ViewSite() { stop(); }
@@ -107,7 +110,7 @@ ViewSite::~ViewSite() { stop(); }
 void ViewSite::stop() {
     if (!thread_.joinable())
         return;
-    while (!server_.is_running() && !server_.isStopping()) // else it would not notice
+    while (!server_.is_running() && !hasEnded_) // else it would not notice
         std::this_thread::sleep_for(milliseconds(1));
     server_.stopAll();
     thread_.join();

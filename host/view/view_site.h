@@ -41,6 +41,7 @@ class ViewSite {
     int port_;
     Access access_;
     std::atomic<int> listeners_ = 0;
+    std::atomic<bool> hasEnded_ = false;
     std::thread thread_;
 };
 

@@ -173,8 +173,8 @@ class Viewer {
     // What is wished, and what was.
     ViewChanges changes_;
     std::optional<Integrator> shown_;
-    bool isClean_ = false;
-    bool isDenoisedByFile_ = false; ///< the scene's own setting
+    std::atomic<bool> isClean_ = false; ///< renderers look at it between two frames
+    bool isDenoisedByFile_ = false;     ///< the scene's own setting
     std::uint64_t wished_ = 1;
     std::uint64_t applied_ = 0;
     Clock::time_point wishedAt_;

@@ -26,7 +26,7 @@ nlohmann::ordered_json Viewer::state() const {
     json["view"] = job_.view;
     json["isChanging"] = wished_ != applied_ || job_.number != jobNumber_; // to another view
     json["show"] = shown_ ? nlohmann::json(nameOf(*shown_)) : nlohmann::json();
-    json["clean"] = isClean_;
+    json["clean"] = isClean_.load();
     json["canBeClean"] = keepsDenoisingData([this] {
         RenderSettings settings;
         settings.integrator = job_.integrator;

@@ -225,10 +225,11 @@ void Viewer::refine(Slot &slot, const Job &job) {
                 &film);
     }
     auto finished = std::make_shared<const Film>(std::move(film));
-    if (isClean_)
+    const bool isToBeClean = isClean_;
+    if (isToBeClean)
         makeClean(slot, job, *finished, whole.samplesPerPixel);
     const Lock lock(mutex_);
-    slot.isCleaned = isClean_;
+    slot.isCleaned = isToBeClean;
     slot.film = std::move(finished);
     slot.filmView = job.view;
     changed_.notify_all();
