@@ -32,7 +32,7 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
     addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
               "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "
               "display, short ones cost more. The image is the same")
-        ->default_str("100");
+        ->default_str(fmt::format("{}", options.maxDispatchMillis));
 }
 
 } // namespace hyalite::core

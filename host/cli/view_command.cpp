@@ -35,7 +35,7 @@ struct ViewerOptions {
     RendererNames devices{"auto"};
     std::string against;
     int threadCount = 0;
-    DeviceOptions deviceOptions{{}, 50.0}; ///< short dispatches end soon
+    DeviceOptions deviceOptions{{}, 30.0}; ///< short dispatches end soon
     int port = 0;
     std::string listen = "127.0.0.1";
     bool isQuiet = false;

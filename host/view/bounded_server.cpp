@@ -155,6 +155,7 @@ class BoundedServer::Threads : public httplib::TaskQueue {
 
 BoundedServer::BoundedServer() {
     new_task_queue = [] { return new Threads; };
+    set_tcp_nodelay(true); // else small answers wait 40 ms for an acknowledgement
     set_payload_max_length(maxRequestBytes);
     set_keep_alive_max_count(maxRequests); // what answers say
     set_keep_alive_timeout(idleSeconds);

@@ -14,7 +14,7 @@ struct ViewFrame {
     std::uint64_t number = 0; ///< ascending over all frames of a viewer
     Image image{
         0, 0}; ///< linear radiance, or what the view of an integrator has; smaller than the view in a preview
-    int samples = 0;        ///< of each pixel
+    int samples = 0;        ///< of each pixel; 0: some have more than others
     bool isPreview = false; ///< of a smaller size
     bool isClean = false;   ///< denoised
 };

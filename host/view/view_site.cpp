@@ -21,7 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr int maxListeners = 16;                         ///< pages that are open
-constexpr milliseconds betweenStates{40};                ///< at least
+constexpr milliseconds betweenStates{10};                ///< at least
 constexpr milliseconds betweenSigns{5000};               ///< of life
 constexpr std::size_t pieceBytes = std::size_t{1} << 18; ///< of a frame, between two looks at the connection
 

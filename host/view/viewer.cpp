@@ -218,6 +218,7 @@ void Viewer::beginView(Lock &lock) {
     for (const std::unique_ptr<Slot> &slot : slots_) {
         slot->compared.clear();
         slot->figures = {};
+        slot->samples = 0;
         slot->failure.clear();
     }
     ++job_.view;

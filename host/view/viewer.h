@@ -115,7 +115,8 @@ class Viewer {
         std::shared_ptr<const ViewFrame> raw;
         std::shared_ptr<const ViewFrame> clean;
         std::map<int, std::shared_ptr<const ViewFrame>>
-            compared; ///< by samples: those that the other has not yet
+            compared;    ///< by samples: those that the other has not yet
+        int samples = 0; ///< of each pixel, of the view in full size
         ViewFigures figures;
         RendererIdentity identity;
         std::string failure; ///< of the view

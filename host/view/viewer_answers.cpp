@@ -53,8 +53,7 @@ nlohmann::ordered_json Viewer::state() const {
         renderer["isFinished"] = job_.share >= 1.0 && slot->finished == job_.number && !hasWork(*slot);
         renderer["raw"] = slot->raw ? slot->raw->number : 0;
         renderer["clean"] = slot->clean ? slot->clean->number : 0;
-        const bool isOfView = slot->raw && slot->raw->view == job_.view && !slot->raw->isPreview;
-        renderer["samples"] = isOfView ? slot->raw->samples : 0;
+        renderer["samples"] = slot->samples;
         const ViewFigures &figures = slot->figures;
         renderer["noise"] = figures.noise;
         renderer["megaraysPerSecond"] = figures.megaraysPerSecond;

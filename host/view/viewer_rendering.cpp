@@ -25,14 +25,6 @@ double secondsBetween(std::chrono::steady_clock::time_point a, std::chrono::stea
     return std::chrono::duration<double>(b - a).count();
 }
 
-/// The samples of the next frame: as many as there is time for, and all powers of two, at which renderers are compared.
-int nextSamples(int samples, double secondsPerSample, int wanted) {
-    const double inTime = secondsPerSample > 0.0 ? secondsBetweenFrames / secondsPerSample : 0.0;
-    const int more = static_cast<int>(std::clamp(inTime, 1.0, 65536.0));
-    const int power = static_cast<int>(std::bit_ceil(static_cast<unsigned>(samples) + 1));
-    return std::min({samples + more, power, wanted});
-}
-
 double meanNoise(const Film &film, const RenderSettings &settings) {
     const NoiseTarget target{0.0, darknessOf(settings), static_cast<std::uint32_t>(settings.samplesPerPixel)};
     const double noise = noiseOf(film, blocksInFilm(film.crop, std::array{film.crop}), target).mean;
@@ -61,7 +53,7 @@ class Viewer::JobObserver : public Observer {
     const Job &job_;
 };
 
-/// Shows the film of an adaptive render between its rounds.
+/// Shows the film of a render while its pixels get their samples, one after another.
 class Viewer::FrameTaker : public SnapshotTaker {
   public:
     FrameTaker(Viewer &viewer, Slot &slot, const Job &job) : viewer_(viewer), slot_(slot), job_(job) {}
@@ -187,16 +179,18 @@ void Viewer::refine(Slot &slot, const Job &job) {
     const int inSteps =
         isAdaptive(whole) ? std::min(samplesOfFirstRound, whole.samplesPerPixel) : whole.samplesPerPixel;
     settings.noise = 0.0;
-    double secondsPerSample = 0.0;
+    FrameTaker taker(*this, slot, job);
+    // Twice as many each time: a device takes several times as long for a sample if there are few to add. At powers of two
+    // renderers are compared.
     for (int samples = 0; samples < inSteps;) {
-        settings.samplesPerPixel = nextSamples(samples, secondsPerSample, inSteps);
+        settings.samplesPerPixel = std::min(std::max(2 * samples, 1), inSteps);
         const Clock::time_point start = Clock::now();
-        film = addSamples(slot, job, settings, std::move(film));
+        film = addSamples(slot, job, settings, std::move(film), &taker);
         if (isCancelled(job))
             return;
-        secondsPerSample = secondsBetween(start, Clock::now()) / (settings.samplesPerPixel - samples);
-        {
-            const double speed = static_cast<double>(film.pixels.size()) / std::max(secondsPerSample, 1e-4);
+        if (samples == 0) {
+            const double speed =
+                static_cast<double>(film.pixels.size()) / std::max(secondsBetween(start, Clock::now()), 1e-4);
             const Lock lock(mutex_); // without a preview, or where that was fast, this is all that is known
             slot.pixelsPerSecond = slot.pixelsPerSecond > 0.0 ? std::min(slot.pixelsPerSecond, speed) : speed;
         }
@@ -207,12 +201,10 @@ void Viewer::refine(Slot &slot, const Job &job) {
             slot.figures.noise = noise;
         }
         publish(slot, job, {.view = job.view, .image = film.toImage(), .samples = samples}, &film);
-        const bool isSoon = samples < 4 || !std::has_single_bit(static_cast<unsigned>(samples));
-        if (isClean_ && samples < inSteps && !isSoon)
+        if (isClean_ && samples >= 4 && samples < inSteps)
             makeClean(slot, job, film, samples);
     }
     if (isAdaptive(whole)) {
-        FrameTaker taker(*this, slot, job);
         film = addSamples(slot, job, whole, std::move(film), &taker);
         if (isCancelled(job))
             return;
@@ -266,6 +258,8 @@ void Viewer::publish(Slot &slot, const Job &job, ViewFrame &&frame, const Film *
         return;
     shared->number = ++frameNumber_;
     (shared->isClean ? slot.clean : slot.raw) = shared;
+    if (!shared->isClean && (shared->samples > 0 || shared->isPreview))
+        slot.samples = shared->isPreview ? 0 : shared->samples;
     if (slot.figures.firstMillis == 0.0)
         slot.figures.firstMillis = 1e3 * secondsBetween(wishedAt_, Clock::now());
     if (film != nullptr) {

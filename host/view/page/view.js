@@ -53,7 +53,7 @@ function levelsOf(frame) {
 }
 
 function isSameStage(a, b) {
-    return a && b && a.view === b.view && a.width === b.width && a.height === b.height && a.samples === b.samples;
+    return a && b && a.samples > 0 && a.view === b.view && a.width === b.width && a.height === b.height && a.samples === b.samples;
 }
 
 // Left of the split that of the first.
