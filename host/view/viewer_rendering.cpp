@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <shared_mutex>
 #include <span>
@@ -185,7 +184,9 @@ void Viewer::refine(Slot &slot, const Job &job) {
     for (int samples = 0; samples < inSteps;) {
         settings.samplesPerPixel = std::min(std::max(2 * samples, 1), inSteps);
         const Clock::time_point start = Clock::now();
-        film = addSamples(slot, job, settings, std::move(film), &taker);
+        SnapshotTaker *const between =
+            samples > 0 ? &taker : nullptr; // a preview is better than half a picture
+        film = addSamples(slot, job, settings, std::move(film), between);
         if (isCancelled(job))
             return;
         if (samples == 0) {
