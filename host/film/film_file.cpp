@@ -26,13 +26,7 @@ Drawing drawFilm(const Film &film, const RenderSettings &settings, ToneCurve ton
 }
 
 Drawing drawFilm(const Film &film, const Image &colours, const RenderSettings &settings, ToneCurve tone) {
-    if (settings.integrator == Integrator::Cost)
-        return drawCost(film);
-    Drawing drawing;
-    drawing.width = film.crop.width();
-    drawing.height = film.crop.height();
-    drawing.rgb = toneMap(colours, settings.exposureStops, tone);
-    return drawing;
+    return drawPicture(film, colours, settings, tone);
 }
 
 Drawing drawPicture(const Film &film, const Picture &picture, const RenderSettings &settings,

@@ -19,38 +19,6 @@ OrderedJson boundsToJson(const std::optional<Bounds> &bounds) {
     return {{"low", vectorToJson(bounds->low)}, {"high", vectorToJson(bounds->high)}};
 }
 
-OrderedJson cameraToJson(const Camera &camera) {
-    OrderedJson json{{"type", nameIn(cameraNames, camera.kind)},
-                     {"position", vectorToJson(camera.position)},
-                     {"direction", vectorToJson(camera.direction)},
-                     {"up", vectorToJson(camera.up)}};
-    if (camera.kind == CameraKind::Perspective) {
-        json["horizontalFov"] = camera.horizontalFovDegrees;
-        json["aperture"] = camera.aperture;
-        json["focusDistance"] = camera.focusDistance;
-    }
-    if (camera.kind == CameraKind::Orthographic)
-        json["viewWidth"] = camera.viewWidth;
-    json["width"] = camera.width;
-    json["height"] = camera.height;
-    return json;
-}
-
-OrderedJson lightToJson(const Light &light) {
-    OrderedJson json{{"type", nameIn(lightNames, light.kind)}};
-    if (light.kind != LightKind::Directional)
-        json["position"] = vectorToJson(light.position);
-    if (light.kind != LightKind::Point)
-        json["direction"] = vectorToJson(light.direction);
-    json[light.kind == LightKind::Directional ? "irradiance" : "power"] = vectorToJson(light.power);
-    if (light.kind == LightKind::Spot) {
-        json["angle"] = light.angleDegrees;
-        json["blend"] = light.blend;
-        json["fade"] = nameIn(spotFadeNames, light.fade);
-    }
-    return json;
-}
-
 OrderedJson materialToJson(const MaterialSummary &material) {
     OrderedJson json{{"name", material.name},
                      {"type", nameIn(materialNames, material.kind)},
@@ -230,6 +198,38 @@ OrderedJson summaryToJson(const SceneSummary &summary, const std::string &comman
 }
 
 } // namespace
+
+OrderedJson cameraToJson(const Camera &camera) {
+    OrderedJson json{{"type", nameIn(cameraNames, camera.kind)},
+                     {"position", vectorToJson(camera.position)},
+                     {"direction", vectorToJson(camera.direction)},
+                     {"up", vectorToJson(camera.up)}};
+    if (camera.kind == CameraKind::Perspective) {
+        json["horizontalFov"] = camera.horizontalFovDegrees;
+        json["aperture"] = camera.aperture;
+        json["focusDistance"] = camera.focusDistance;
+    }
+    if (camera.kind == CameraKind::Orthographic)
+        json["viewWidth"] = camera.viewWidth;
+    json["width"] = camera.width;
+    json["height"] = camera.height;
+    return json;
+}
+
+OrderedJson lightToJson(const Light &light) {
+    OrderedJson json{{"type", nameIn(lightNames, light.kind)}};
+    if (light.kind != LightKind::Directional)
+        json["position"] = vectorToJson(light.position);
+    if (light.kind != LightKind::Point)
+        json["direction"] = vectorToJson(light.direction);
+    json[light.kind == LightKind::Directional ? "irradiance" : "power"] = vectorToJson(light.power);
+    if (light.kind == LightKind::Spot) {
+        json["angle"] = light.angleDegrees;
+        json["blend"] = light.blend;
+        json["fade"] = nameIn(spotFadeNames, light.fade);
+    }
+    return json;
+}
 
 nlohmann::ordered_json sceneToJson(const SceneSummary &summary, const std::optional<Coverage> &coverage,
                                    const std::optional<TreeCheck> &check, const std::string &commandLine) {

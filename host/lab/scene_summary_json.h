@@ -15,6 +15,10 @@ namespace hyalite::core {
 /// Of the document. A new key leaves it; one that changes or goes raises it.
 inline constexpr int inspectVersion = 2;
 
+/// By the keys of scene files.
+[[nodiscard]] nlohmann::ordered_json cameraToJson(const Camera &camera);
+[[nodiscard]] nlohmann::ordered_json lightToJson(const Light &light);
+
 /// With what was measured beside it.
 [[nodiscard]] nlohmann::ordered_json sceneToJson(const SceneSummary &summary,
                                                  const std::optional<Coverage> &coverage,

@@ -146,7 +146,8 @@ std::vector<std::byte> Viewer::pictureFile(std::size_t renderer, const PictureWi
     settings.isDenoised = clean != nullptr;
     settings.exposureStops = wanted.exposureStops;
     if (!isAdaptive(settings))
-        settings.samplesPerPixel = static_cast<int>(film->pixels.front().sampleCount);
+        settings.samplesPerPixel = static_cast<int>( // some pixels may have more
+            std::ranges::min(film->pixels, {}, &layout::FilmPixel::sampleCount).sampleCount);
     origin = provenanceOf(prepared, request_.commandLine);
     origin.settings = settings;
     const std::vector<ViewFilm> none;

@@ -4,6 +4,7 @@
 #include "host/image/comparison_json.h"
 #include "host/image/tone_map.h"
 #include "host/image/ulp_histogram.h"
+#include "tests/fixtures/node_fixture.h"
 #include "tests/fixtures/page_fixture.h"
 #include "tests/fixtures/synthetic_picture.h"
 
@@ -12,10 +13,7 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -90,31 +88,13 @@ ComparisonPage pageOf(const Pair &pair, const ImageComparison &comparison) {
 
 ImageComparison comparisonOf(const Pair &pair) { return compareImages(pair.a, pair.b, Encoding::Linear); }
 
-/// What a script of tests/lab/ prints of a page; the words follow the name of its file.
-std::string runScript(const std::string &script, const std::string &page, const std::string &words) {
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) /
-        fmt::format("comparison-{}.html", ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::ofstream(file) << page;
-    FILE *const pipe = popen(
-        fmt::format("node '{}/tests/lab/{}' '{}' {} 2>&1", HYALITE_SOURCE_DIR, script, file.string(), words)
-            .c_str(),
-        "r");
-    std::string text;
-    for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
-        text += static_cast<char>(letter);
-    EXPECT_EQ(pclose(pipe), 0) << text;
-    std::filesystem::remove(file);
-    return text;
-}
-
 /// Of each pixel, by all tone curves.
 std::vector<std::vector<std::int64_t>> numbersByScript(const std::string &page, double stops) {
     std::string words = fmt::format("{}", stops);
     for (const auto &[name, curve] : toneCurveNames)
         words += fmt::format(" {}", name);
     std::vector<std::vector<std::int64_t>> rows;
-    std::istringstream lines(runScript("page_numbers.js", page, words));
+    std::istringstream lines(testing::printedByNode("lab/page_numbers.js", page, words));
     for (std::string line; std::getline(lines, line);) {
         std::istringstream numbers(line);
         rows.emplace_back();
@@ -260,7 +240,7 @@ TEST(ComparisonHtml, ShowsFiguresOriginsAndTheFirstStepThatDiffers) {
         {"first", {{0, "hit", "sphere 1"}, {2, "throughput", "x"}}},
         {"second", {{0, "hit", "sphere 1"}, {2, "throughput", "y"}, {2, "hit", "none"}}}};
     const std::string html = comparisonHtml(page);
-    const std::string text = runScript("page_text.js", html, "");
+    const std::string text = testing::printedByNode("lab/page_text.js", html, "");
     expectParts(text,
                 {"a and b: NOT equal\n", "names: first: cpu; second: device\n", "differing pixels 2 of 960",
                  "differing values 4 of 2880", "--max-flip 0.5 passed, 0.25",
@@ -272,7 +252,7 @@ TEST(ComparisonHtml, ShowsFiguresOriginsAndTheFirstStepThatDiffers) {
                  "0 hit sphere 1 sphere 1 2 throughput x y 2 hit – none"});
     // All keys can be pressed; the second difference is the largest, and follows the first.
     for (const char *keys : {"1 2 3 4 5 6 t t t t + - 0 z [ ] , . ArrowLeft ' ' 0 l", "n", "p"})
-        expectParts(runScript("page_text.js", html, keys),
+        expectParts(testing::printedByNode("lab/page_text.js", html, keys),
                     {"reading: Pixel (109, 207): ", "G 0.", "-1 0xbf800000", "100 0x42c80000"});
     EXPECT_EQ(text.find("undefined"), std::string::npos) << text;
 }
@@ -282,7 +262,7 @@ TEST(ComparisonHtml, ShowsEqualPictures) {
     pair.b = pair.a;
     const ImageComparison comparison = comparisonOf(pair);
     const std::string text =
-        runScript("page_text.js", comparisonHtml(pageOf(pair, comparison)), "2 3 4 5 6 n l");
+        testing::printedByNode("lab/page_text.js", comparisonHtml(pageOf(pair, comparison)), "2 3 4 5 6 n l");
     expectParts(text, {"differing values 0 of 2880", "PSNR ∞ dB", "SSIM not available",
                        "histogram: ULP values share  0 2880 100.000 %"});
 }
@@ -309,7 +289,7 @@ TEST(ComparisonHtml, NeedsNothingElseAndNamesMayHoldAnything) {
     for (std::size_t i = html.find("</script"); i != std::string::npos; i = html.find("</script", i + 1))
         ++count;
     EXPECT_EQ(count, 2u);
-    expectParts(runScript("page_text.js", html, ""),
+    expectParts(testing::printedByNode("lab/page_text.js", html, ""),
                 {"title: </script><!--<script>&\"'\ufffd\ufffd\ufffd]]>\n", "scene </script>"});
 }
 

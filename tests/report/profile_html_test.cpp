@@ -4,15 +4,13 @@
 #include "host/report/page.h"
 #include "host/report/profile_html.h"
 #include "host/report/profile_json.h"
+#include "tests/fixtures/node_fixture.h"
 #include "tests/fixtures/page_fixture.h"
 #include "tests/fixtures/profile_fixture.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <vector>
@@ -56,19 +54,7 @@ std::string fullPage() { return profileHtml(fullProfile(), bytesOf("\x89PNG"), b
 
 /// What tests/report/page_script.js prints about a page.
 std::string runScript(const std::string &page, const std::string &mode = "") {
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) /
-        fmt::format("{}.html", ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::ofstream(file) << page;
-    const std::string command = fmt::format("node '{}/tests/report/page_script.js' '{}' {} 2>&1",
-                                            HYALITE_SOURCE_DIR, file.string(), mode);
-    FILE *const pipe = popen(command.c_str(), "r");
-    std::string text;
-    for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
-        text += static_cast<char>(letter);
-    EXPECT_EQ(pclose(pipe), 0) << text;
-    std::filesystem::remove(file);
-    return text;
+    return testing::printedByNode("report/page_script.js", page, mode);
 }
 
 /// Expects every element to be closed where it should be.
