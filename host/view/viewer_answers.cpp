@@ -23,6 +23,7 @@ std::string Viewer::sceneText() const {
 nlohmann::ordered_json Viewer::state() const {
     const Lock lock(mutex_);
     nlohmann::ordered_json json = sceneState_;
+    json["number"] = news_;
     json["view"] = job_.view;
     json["isChanging"] = wished_ != applied_ || job_.number != jobNumber_; // to another view
     json["show"] = shown_ ? nlohmann::json(nameOf(*shown_)) : nlohmann::json();

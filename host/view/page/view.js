@@ -133,12 +133,16 @@ async function send(more) {
             wishes = null;
             const response = await fetch("/change", {method: "POST", body});
             showFault(response.ok ? "" : await response.text());
+            if (response.ok)
+                takeState(await response.json());
         }
     } catch {
         showFault("the viewer does not answer");
     }
     isSending = false;
     hasOwnCamera = isMoving;
+    if (state)
+        takeState(state); // the last news may have come while the camera was this page's
 }
 
 function sendCamera() {
@@ -241,13 +245,17 @@ function takeCamera() {
     const along = dot(subtract(middle, camera.position), camera.direction);
     orbit = new Orbit(camera.position, camera.direction, camera.up, along > 0.05 * size ? along : 0.5 * size || 1);
     const taken = orbit;
+    taken.isGuess = true;
     pickAt(0.5, 0.5).then(pick => {
+        taken.isGuess = false;
         if (pick && orbit === taken && !isMoving && !hasOwnCamera)
             orbit.pivot = add(orbit.position, times(orbit.direction, pick.depth));
     });
 }
 
 function takeState(now) {
+    if (now.number < state?.number)
+        return; // overtaken by news
     state = now;
     if (!state.isChanging && !isSending)
         wishedFov = null;
@@ -490,13 +498,20 @@ element("help-button").addEventListener("click", () => element("help").showModal
 function handleKey(event) {
     const step = Math.PI / 36;
     const turn = (right, up) => {
+        if (!orbit)
+            return;
         if (event.shiftKey)
             orbit.pan(right / 2, up / 2, state.camera.type === "perspective" ? state.camera.fov : 60);
         else
             orbit.turn(right * step * 10, up * step * 10);
         sendCamera();
     };
-    const dolly = factor => { orbit.dolly(factor); sendCamera(); };
+    const dolly = factor => {
+        if (!orbit)
+            return;
+        orbit.dolly(factor);
+        sendCamera();
+    };
     const keys = {
         ArrowLeft: () => turn(-0.1, 0),
         ArrowRight: () => turn(0.1, 0),
@@ -541,7 +556,7 @@ function isForControl(event) {
 }
 
 document.addEventListener("keydown", event => {
-    if (state && orbit && !isForControl(event) && !event.ctrlKey && !event.metaKey && !event.altKey)
+    if (state && !isForControl(event) && !event.ctrlKey && !event.metaKey && !event.altKey)
         handleKey(event);
 });
 

@@ -189,4 +189,20 @@ test("fingers: one turns; two move to the side, and come nearer", async () => {
     await assertCameNearer(0.5, 1e-3);
 });
 
+test("answers that come after all news leave the hands the camera", async () => {
+    await press("]");
+    await moved();
+    await page.evaluate(() => {
+        const fetchNow = window.fetch;
+        window.fetch = async (address, options) => {
+            const response = await fetchNow(address, options);
+            await new Promise(resolve => setTimeout(resolve, options?.method === "POST" ? 500 : 0));
+            return response;
+        };
+    });
+    await reset();
+    await press("ArrowUp");
+    await assertOrbited(0, Math.PI / 36);
+});
+
 test("nothing was complained of", () => assert.deepEqual(complaints, []));

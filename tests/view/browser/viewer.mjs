@@ -108,7 +108,8 @@ export async function settle(page) {
     return until(page, now => {
         const shown = now.renderers[mode === "second" ? 1 : 0];
         const number = now.clean && now.canBeClean ? shown.clean : shown.raw;
-        return !now.isChanging && !isMoving && now.renderers.every(each => each.isFinished) && number > 0 &&
+        return !now.isChanging && !isMoving && orbit && !orbit.isGuess && number > 0 &&
+               now.renderers.every(each => each.isFinished) &&
                frames.every((frame, i) => i >= now.renderers.length || frame?.view === now.view) &&
                canvas.dataset.number === String(number) && canvas.dataset.view === String(now.view);
     });
