@@ -47,7 +47,7 @@ add_custom_target(layout_macros_header DEPENDS ${PROJECT_BINARY_DIR}/kernels/lay
 #
 # Embeds SOURCE, a path, into TARGET as the array VARIABLE of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is always
 # built anew. With UNOPTIMISED functions stay as they are written, for tests that look at them. Includes are looked for in
-# FOLDER first. The target property HYALITE_KERNELS lists all variables.
+# FOLDER first. The target property HYALITE_KERNELS lists all variables, HYALITE_DEFINITIONS_<VARIABLE> the definitions.
 function(hyalite_kernel target variable source)
     cmake_parse_arguments(PARSE_ARGV 3 kernel UNOPTIMISED INCLUDES DEFINITIONS)
     set(folder ${PROJECT_BINARY_DIR}/kernels)
@@ -58,6 +58,8 @@ function(hyalite_kernel target variable source)
     endif()
     set(includes ${kernel_INCLUDES} ${PROJECT_SOURCE_DIR} ${folder})
     list(TRANSFORM includes PREPEND -I)
+    list(JOIN kernel_DEFINITIONS " " definitions)
+    set_property(TARGET ${target} PROPERTY HYALITE_DEFINITIONS_${variable} "${definitions}")
     list(TRANSFORM kernel_DEFINITIONS PREPEND -D)
     set(base ${folder}/${variable})
     add_custom_command(
@@ -91,7 +93,8 @@ function(hyalite_kernel_list target function)
     get_target_property(kernels ${target} HYALITE_KERNELS)
     foreach(kernel IN LISTS kernels)
         string(APPEND kernel_includes "#include \"${kernel}.h\"\n")
-        string(APPEND kernel_entries "        {\"${kernel}\", ${kernel}, ${kernel}Hash},\n")
+        get_property(definitions TARGET ${target} PROPERTY HYALITE_DEFINITIONS_${kernel})
+        string(APPEND kernel_entries "        {\"${kernel}\", \"${definitions}\", ${kernel}, ${kernel}Hash},\n")
     endforeach()
     set(list ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/kernel_list.cpp.in ${list} @ONLY)

@@ -9,6 +9,7 @@ namespace hyalite::core {
 
 struct EmbeddedKernel {
     std::string_view name;
+    std::string_view definitions; ///< of macros, as the build has them: "RAYS=1 MEMORY_TEXELS=0"
     std::span<const std::uint32_t> words;
     std::uint64_t hash; ///< hashBytes() of the words, found by the build: they are tens of megabytes
 };

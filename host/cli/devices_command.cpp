@@ -73,8 +73,8 @@ void tune(const std::string &deviceName, Observer &observer) {
     const std::vector<KernelRates> all = measureKernels(deviceName, observer, inOwnProcess);
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     printResult("{}  {}\n\n{:<11} {:<11}", device.index, device.name, "Mray/s", "scene");
-    for (const auto &[kernel, choice] : gpu::namedKernels)
-        printResult(" {:>12}", kernel);
+    for (const gpu::KernelRow &kernel : gpu::kernelTable)
+        printResult(" {:>12}", kernel.name);
     printResult("   auto\n");
     Tuning tuning = readTuning(device, observer);
     tuning.date = today();
@@ -82,9 +82,9 @@ void tune(const std::string &deviceName, Observer &observer) {
         printResult("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
         for (const double rate : rates.megaraysPerSecond)
             printResult(" {:>12.3g}", rate);
-        const auto &[kernel, choice] = gpu::namedKernels[rates.best];
-        printResult("   {}\n", kernel);
-        tuning.kernels[static_cast<std::size_t>(rates.workload)] = choice;
+        const gpu::KernelRow &kernel = gpu::kernelTable[rates.best];
+        printResult("   {}\n", kernel.name);
+        tuning.kernels[static_cast<std::size_t>(rates.workload)] = &kernel;
     }
     storeTuning(device, tuning, observer);
     printResult("\nkept in {}\n", file.string());

@@ -129,8 +129,8 @@ void print(const DeviceVerdict &verdict) {
 /// Throws Error{Usage} for a word that is none of a kernel.
 void requireKernels(const std::vector<std::string> &names) {
     std::vector<std::string_view> words;
-    for (const auto &[word, choice] : gpu::namedKernels)
-        words.push_back(word);
+    for (const gpu::KernelRow &row : gpu::kernelTable)
+        words.push_back(row.name);
     for (const std::string &name : names)
         if (std::ranges::find(words, name) == words.end())
             refuseValue("--kernels", name, quotedList(words) + suggestion(name, words));

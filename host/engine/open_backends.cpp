@@ -27,7 +27,7 @@ gpu::LoadedDevices loadDevices() {
 
 std::unique_ptr<Backend> open(const std::string &name, int threadCount, const gpu::RenderConfig &config,
                               Observer &observer) {
-    if (isReference(name) && config.traversal != gpu::Traversal::Automatic)
+    if (isReference(name) && config.kernel != nullptr)
         throw Error(ErrorKind::Usage,
                     fmt::format("only Vulkan devices have kernels to choose from, {} has none", name),
                     Remedy::NoKernelChoice);
@@ -135,7 +135,7 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
 }
 
 void announceDriver(Observer &observer, gpu::ProcessorUse processors, const gpu::RenderConfig &config) {
-    processors.hasStack = config.traversal == gpu::Traversal::Stack;
+    processors.hasStack = config.kernel != nullptr && config.kernel->hasStack;
     observer.beforeDriver(processors);
 }
 
@@ -146,10 +146,7 @@ bool isReference(const std::string &name) { return name == "cpu" || name == "cpu
 gpu::RenderConfig renderConfigFor(const DeviceOptions &options) {
     gpu::RenderConfig config;
     config.dispatchSeconds = options.maxDispatchMillis * 1e-3;
-    if (options.kernel) {
-        config.traversal = options.kernel->traversal;
-        config.slotsPerInvocation = options.kernel->slotsPerInvocation;
-    }
+    config.kernel = options.kernel.value_or(nullptr);
     return config;
 }
 

@@ -19,7 +19,7 @@ namespace hyalite::core {
 
 /// Options of a Vulkan device. None affects the image.
 struct DeviceOptions {
-    std::optional<gpu::KernelChoice> kernel;
+    std::optional<const gpu::KernelRow *> kernel; ///< null: by device and scene
     double maxDispatchMillis = gpu::RenderConfig{}.dispatchSeconds * 1e3;
 };
 
@@ -52,8 +52,8 @@ struct OpenedRenderers {
                                             const gpu::ProcessorUse &processors = {},
                                             const gpu::RenderConfig &config = {});
 
-/// The same, in a thread of its own. `config.kernel` refers to memory that, as the
-/// observer, must live until the future is ready.
+/// The same, in a thread of its own. `config.spirv` refers to memory that, as the observer, must live until the future
+/// is ready.
 [[nodiscard]] std::future<OpenedRenderers> beginOpeningRenderers(const RendererNames &names,
                                                                  Observer &observer,
                                                                  const gpu::ProcessorUse &processors,

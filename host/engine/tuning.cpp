@@ -60,10 +60,10 @@ Json readEntries(const fs::path &file) {
     return *devices;
 }
 
-gpu::KernelChoice kernelNamed(const Json &name) {
-    for (const auto &[known, choice] : gpu::kernelNames)
+const gpu::KernelRow *kernelNamed(const Json &name) {
+    for (const auto &[known, row] : gpu::kernelNames)
         if (name == known)
-            return choice;
+            return row;
     throw Error(ErrorKind::BadInput, "found the kernel " + excerpt(name.dump()));
 }
 
@@ -131,8 +131,7 @@ void storeTuning(const gpu::DeviceInfo &device, const Tuning &tuning, Observer &
     if (tuning.isMeasured()) {
         entry["date"] = tuning.date;
         for (const auto &[name, workload] : gpu::workloadNames) {
-            const gpu::KernelChoice &choice = tuning.kernels[static_cast<std::size_t>(workload)];
-            entry[std::string(name)] = gpu::kernelName(choice);
+            entry[std::string(name)] = gpu::kernelName(tuning.kernels[static_cast<std::size_t>(workload)]);
         }
     }
     entries.push_back(entry);

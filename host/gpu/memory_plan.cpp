@@ -34,7 +34,9 @@ BufferPlan plan(std::string name, BufferUse use, std::uint64_t sizeBytes) {
     return {std::move(name), use, std::max<std::uint64_t>(sizeBytes, 16)};
 }
 
-BufferUse bulkUse(bool isSkipList) { return isSkipList ? BufferUse::Texels : BufferUse::Storage; }
+BufferUse bulkUse(const KernelRow &kernel) {
+    return kernel.memory == KernelMemory::Texels ? BufferUse::Texels : BufferUse::Storage;
+}
 
 std::uint32_t fitTile(std::uint32_t pixels, int tile) {
     const std::uint32_t side = Tile::blockSide;
@@ -54,8 +56,8 @@ std::uint64_t lightBytesOfPath(const LightPlanes &planes) {
     return planes.count() == 0 ? 0 : (layout::lightStateWords + 3 * planes.groups) * sizeof(std::uint32_t);
 }
 
-/// For a kernel with `slots` path slots. `isResumable`: it can stop inside a sample.
-WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::uint64_t slots) {
+/// For `slots` path slots. `isResumable`: the kernel can stop inside a sample.
+WaitingPlan planWaiting(const Job &job, const KernelRow &kernel, bool isResumable, std::uint64_t slots) {
     const bool isSplitting = rowOf(job.settings.integrator).splitsAtGlass && job.scene.hasDielectric;
     const std::uint32_t maxPending = isSplitting ? static_cast<std::uint32_t>(job.settings.maxDepth) - 1 : 0;
     const bool keepsPending = !isResumable && maxPending <= layout::maxPendingInRegisters;
@@ -63,7 +65,7 @@ WaitingPlan planWaiting(const Job &job, bool isSkipList, bool isResumable, std::
     const std::uint64_t lightBytes = lightBytesOfPath(lightPlanesOf(job.scene, job.settings));
     waiting.paths = plan("the path slots", BufferUse::Storage,
                          isResumable ? slots * (sizeof(layout::PathRecord) + lightBytes) : 0);
-    waiting.pending = plan("the pending rays", bulkUse(isSkipList),
+    waiting.pending = plan("the pending rays", bulkUse(kernel),
                            keepsPending ? 0 : slots * maxPending * sizeof(layout::PendingRay));
     waiting.pendingInRegisters = keepsPending ? maxPending : 0;
     return waiting;
@@ -115,8 +117,8 @@ void requireBuffer(const BufferPlan &plan, const DeviceInfo &device) {
                                                       device.name, device.maxStorageBufferBytes));
 }
 
-ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
-    const BufferUse use = bulkUse(isSkipList);
+ScenePlan planScene(const PackedScene &scene, const KernelRow &kernel) {
+    const BufferUse use = bulkUse(kernel);
     ScenePlan planned;
     planned.buffers[layout::bindingFrame] =
         plan("the frame constants", BufferUse::Uniform, sizeof(layout::FrameRecord));
@@ -129,7 +131,7 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
              sizeof(layout::TrianglePair) * layout::maxListedTriangles);
     for (const SceneArray &array : scene.arrays())
         planned.buffers[array.binding] = plan(fmt::format("the {}", array.name), use, array.bytes.size());
-    if (isSkipList) {
+    if (kernel.tree == KernelTree::SkipLists) {
         const std::uint64_t listBytes = scene.hasTriangles ? maxSkipListBytes(scene.nodes.size()) : 0;
         planned.buffers[layout::bindingNodes] = plan("the skip lists", use, listBytes);
         planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) +
@@ -142,16 +144,17 @@ ScenePlan planScene(const PackedScene &scene, bool isSkipList) {
 }
 
 JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &device) {
-    const bool isSkipList = config.traversal == Traversal::SkipList;
+    const KernelRow &kernel = *config.kernel;
+    const bool isExchanging = kernel.lanes == KernelLanes::Exchanging;
     JobPlan planned;
     planned.layout = FilmLayout(job.crop, job.film, job.sampleEnd);
     const std::uint64_t filmPixels = planned.layout.pixelCount();
-    planned.exchangesByBroadcast = isSkipList && device.hasSlowShuffles.value_or(false);
+    planned.exchangesByBroadcast = isExchanging && device.hasSlowShuffles.value_or(false);
     planned.samplesInFlight = fitSamplesInFlight(config.samplesInFlight, job.sampleEnd - job.sampleBegin);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.
-    planned.isDirect = isSkipList && !job.isTraced && !config.isCounting;
+    planned.isDirect = isExchanging && !job.isTraced && !config.isCounting;
     const std::uint32_t lightPlanes = lightPlanesOf(job.scene, job.settings).count();
     // Where every pass takes the same time, lanes whose paths have ended cost as much as others. In a tree few rays
     // take less, and whitted's paths end together. To keep layers of light of samples that wait costs more than that.
@@ -174,10 +177,10 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
                              ? plan("the finished samples", BufferUse::Storage,
                                     slots * recordsPerSample * sizeof(layout::SampleRecord))
                              : plan("the traversal stacks", BufferUse::Storage,
-                                    job.scene.hasTriangles && !isSkipList
+                                    job.scene.hasTriangles && kernel.hasStack
                                         ? slots * planned.stackSize * sizeof(std::uint32_t)
                                         : 0);
-        planned.waiting = planWaiting(job, isSkipList, !planned.isDirect, slots);
+        planned.waiting = planWaiting(job, kernel, !planned.isDirect, slots);
     };
     planSlots();
     while (!haveRoom({&planned.stacks, &planned.waiting.paths, &planned.waiting.pending}, device) &&
@@ -190,7 +193,7 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.maxHelperPixels = std::min(planned.largestTile.pixelCount(), maxHelperPixels);
     const auto planHelper = [&] {
         planned.helperWaiting =
-            planWaiting(job, isSkipList, true, planned.maxHelperPixels * planned.samplesInFlight);
+            planWaiting(job, kernel, true, planned.maxHelperPixels * planned.samplesInFlight);
     };
     planHelper();
     while (!haveRoom({&planned.helperWaiting.paths, &planned.helperWaiting.pending}, device) &&

@@ -20,7 +20,7 @@ struct ScenePlan {
     std::uint64_t hostBytes = 0; ///< needed while skip lists are made
 };
 
-[[nodiscard]] ScenePlan planScene(const PackedScene &scene, bool isSkipList);
+[[nodiscard]] ScenePlan planScene(const PackedScene &scene, const KernelRow &kernel);
 
 /// Memory for unfinished paths and rays.
 struct WaitingPlan {

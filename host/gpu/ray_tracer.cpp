@@ -29,22 +29,22 @@ std::uint32_t stackSizeFor(const PackedScene &scene) {
 struct RayScene::State {
     Device device;
     SceneBuffers buffers;
-    bool isSkipList;
+    const KernelRow &kernel;
     std::uint32_t stackSize;
     bool hasInstances;
     bool hasPairs;
     bool isDivisionExact;
 
-    State(const DeviceInfo &info, const PackedScene &scene, bool isSkipListWanted)
-        : device(info), buffers(device, scene, planScene(scene, isSkipListWanted), isSkipListWanted),
-          isSkipList(isSkipListWanted), stackSize(stackSizeFor(scene)),
-          hasInstances(!scene.instances.empty()), hasPairs(isSkipListWanted && scene.hasPairs),
+    State(const DeviceInfo &info, const PackedScene &scene, const KernelRow &row)
+        : device(info), buffers(device, scene, planScene(scene, row), row), kernel(row),
+          stackSize(stackSizeFor(scene)), hasInstances(!scene.instances.empty()),
+          hasPairs(row.tree == KernelTree::SkipLists && scene.hasPairs),
           isDivisionExact(
               chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {}
 };
 
-RayScene::RayScene(const DeviceInfo &device, const PackedScene &scene, bool isSkipList)
-    : state_(std::make_unique<State>(device, scene, isSkipList)) {}
+RayScene::RayScene(const DeviceInfo &device, const PackedScene &scene, const KernelRow &kernel)
+    : state_(std::make_unique<State>(device, scene, kernel)) {}
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene &&) noexcept = default;
 RayScene &RayScene::operator=(RayScene &&) noexcept = default;
@@ -62,20 +62,21 @@ struct RayTracer::State {
     State(RayScene::State &scene, const RayKernel &code, RayGoal goal,
           std::span<const layout::RayRecord> wanted)
         : rayCount(static_cast<std::uint32_t>(wanted.size())),
-          rays(scene.device, "the rays", code.isSkipList ? BufferUse::Texels : BufferUse::Storage,
+          rays(scene.device, "the rays",
+               code.row.memory == KernelMemory::Texels ? BufferUse::Texels : BufferUse::Storage,
                wanted.size_bytes()),
           hits(scene.device, "the hits", BufferUse::Storage, wanted.size() * sizeof(layout::HitRecord)),
           stacks(scene.device, "the traversal stacks", BufferUse::Storage,
-                 code.isSkipList ? 0 : wanted.size() * scene.stackSize * sizeof(std::uint32_t)),
+                 code.row.hasStack ? wanted.size() * scene.stackSize * sizeof(std::uint32_t) : 0),
           unused(scene.device, "nothing", BufferUse::Storage, 0), kernel(makeKernel(scene, code, goal)) {
-        assert(code.isSkipList == scene.isSkipList && !wanted.empty());
+        assert(shareScenes(code.row, scene.kernel) && !wanted.empty());
         rays.upload(std::as_bytes(wanted));
         dispatch.tileWidth = rayCount;
         dispatch.tileHeight = 1;
         dispatch.stepBudget = stepBudget;
         dispatch.interleave = scene.device.info().isSoftware() ? 16 : 1; // as in tile_renderer.cpp
         const std::uint32_t raysPerRound =
-            workgroupSize * static_cast<std::uint32_t>(code.raysPerInvocation) * dispatch.interleave;
+            workgroupSize * static_cast<std::uint32_t>(code.row.raysAtOnce) * dispatch.interleave;
         groupCount = (rayCount + raysPerRound - 1) / raysPerRound * dispatch.interleave;
     }
 
@@ -96,7 +97,7 @@ struct RayTracer::State {
         bound[layout::bindingStacks] = &stacks;
         bound[layout::bindingRays] = &rays;
         bound[layout::bindingHits] = &hits;
-        return Kernel(scene.device, code.name, code.spirv, constants, bound);
+        return Kernel(scene.device, std::string(code.row.name), code.spirv, constants, bound);
     }
 };
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "host/gpu/arithmetic.h"
-#include "host/gpu/vk/device_list.h"
-#include "host/packing/packed_scene.h"
+#include "host/gpu/kernels.h"
 #include "shaders/layout/ray_records.h"
 
 #include <memory>
@@ -12,11 +11,9 @@
 
 namespace hyalite::core::gpu {
 
-/// trace_rays.comp, compiled for one traversal.
+/// trace_rays.comp, compiled for a kernel's row.
 struct RayKernel {
-    const char *name;
-    bool isSkipList; ///< skip lists in texel buffers; otherwise node pairs in storage buffers
-    int raysPerInvocation;
+    const KernelRow &row;
     std::span<const std::uint32_t> spirv;
 };
 
@@ -25,12 +22,12 @@ enum class RayGoal {
     AnyHit,
 };
 
-/// The tree of a scene in device memory, as node pairs or as skip lists.
+/// The tree of a scene in device memory.
 class RayScene {
   public:
-    /// `scene` has triangles, all of them opaque; its spheres are ignored. Throws Error{LimitExceeded} if it is too
+    /// As `kernel` reads it. `scene` has triangles, all of them opaque; its spheres are ignored. Throws Error{LimitExceeded} if it is too
     /// large for the device, and Error{NoDevice}.
-    RayScene(const DeviceInfo &device, const PackedScene &scene, bool isSkipList);
+    RayScene(const DeviceInfo &device, const PackedScene &scene, const KernelRow &kernel);
     ~RayScene();
     RayScene(RayScene &&) noexcept;
     RayScene &operator=(RayScene &&) noexcept;
@@ -44,7 +41,7 @@ class RayScene {
 /// Rays in device memory, and the kernel that traces them.
 class RayTracer {
   public:
-    /// `scene` must outlive the tracer, and was made for the traversal of the kernel. `rays` is not empty. Throws as
+    /// `scene` must outlive the tracer, and was made for a kernel that shares scenes with this one. `rays` is not empty. Throws as
     /// RayScene does.
     RayTracer(RayScene &scene, const RayKernel &kernel, RayGoal goal,
               std::span<const layout::RayRecord> rays);

@@ -19,6 +19,7 @@
 #include <future>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <utility>
@@ -67,7 +68,7 @@ class FilmKeeper {
 /// A scene that stays on the device until another one is rendered.
 struct ResidentScene {
     std::uint64_t serial;
-    bool isSkipList;
+    const KernelRow &kernel; ///< that reads its buffers
     std::uint64_t sizeBytes;
     SceneBuffers buffers;
     std::map<Integrator, DispatchCosts> costs{}; ///< of its renders so far
@@ -112,37 +113,48 @@ struct Renderer::State {
     [[nodiscard]] RenderConfig configFor(const PackedScene &scene, Integrator integrator,
                                          bool showsWork) const {
         RenderConfig used = config;
-        used.traversal = wanted.traversal;
-        used.slotsPerInvocation = wanted.slotsPerInvocation;
+        used.kernel = wanted.kernel;
         used.samplesInFlight = wanted.samplesInFlight;
         const Workload workload = workloadOf(scene, integrator);
         if (showsWork) {
-            if (wanted.traversal == Traversal::SkipList)
-                throw Error(ErrorKind::Usage,
-                            fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
-                                        "allowed: stack, stack-x2, or auto",
-                                        gpu::kernelName(config)));
             used.isCounting = true;
-            used.traversal = Traversal::Stack;
-        } else if (used.traversal == Traversal::Automatic && used.slotsPerInvocation == 0 &&
-                   used.kernel.empty()) {
-            const KernelChoice &choice = preferred[static_cast<std::size_t>(workload)];
-            used.traversal = choice.traversal;
-            used.slotsPerInvocation = choice.slotsPerInvocation;
+            used.kernel = &kernelWithStack(workload);
+        } else if (used.kernel == nullptr) {
+            used.kernel = preferred[static_cast<std::size_t>(workload)];
         }
         used = completed(used, info, workload);
         // Only the user's choice is better refused than replaced.
-        if (wanted.traversal == Traversal::Automatic && used.traversal == Traversal::SkipList &&
-            !areTexelsAllowed(scene, info) && lackFor(Traversal::Stack, info).empty()) {
-            used.traversal = Traversal::Stack;
-            used = completed(used, info, workload);
+        if (wanted.kernel == nullptr && used.kernel->memory == KernelMemory::Texels &&
+            !areTexelsAllowed(scene, *used.kernel, info)) {
+            const KernelRow &other = chooseKernel(
+                info, workload, [](const KernelRow &row) { return row.memory != KernelMemory::Texels; });
+            if (lackFor(other, info).empty()) {
+                used.kernel = &other;
+                used = completed(used, info, workload);
+            }
         }
-        if (const std::string lack = lackFor(used.traversal, info); !lack.empty())
+        if (const std::string lack = lackFor(*used.kernel, info); !lack.empty())
             throw Error(
                 ErrorKind::LimitExceeded,
                 fmt::format("the kernel {} cannot run on {}: it {}", gpu::kernelName(used), info.name, lack),
-                wanted.traversal == Traversal::Automatic ? Remedy::ReferenceInstead : Remedy::NoKernelChoice);
+                wanted.kernel == nullptr ? Remedy::ReferenceInstead : Remedy::NoKernelChoice);
         return used;
+    }
+
+    /// The kernel whose work samples show. Throws Error{Usage} if another one is wanted.
+    [[nodiscard]] const KernelRow &kernelWithStack(Workload workload) const {
+        const auto hasStack = [](const KernelRow &row) { return row.hasStack; };
+        if (wanted.kernel == nullptr)
+            return chooseKernel(info, workload, hasStack);
+        if (hasStack(*wanted.kernel))
+            return *wanted.kernel;
+        std::string allowed;
+        for (const KernelRow &row : kernelTable | std::views::filter(hasStack))
+            allowed += fmt::format("{}, ", row.name);
+        throw Error(ErrorKind::Usage,
+                    fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
+                                "allowed: {}or auto",
+                                wanted.kernel->name, allowed));
     }
 
     [[nodiscard]] MemoryPlan requireMemory(const ScenePlan &scene, const JobPlan &job) const {
@@ -151,18 +163,18 @@ struct Renderer::State {
     }
 
     /// Frees the device's memory, unless the scene in it is this one.
-    void keepOnly(const PackedScene &scene, bool isSkipList) {
+    void keepOnly(const PackedScene &scene, const KernelRow &kernel) {
         if (resident &&
-            (scene.serial == 0 || resident->serial != scene.serial || resident->isSkipList != isSkipList))
+            (scene.serial == 0 || resident->serial != scene.serial || !shareScenes(resident->kernel, kernel)))
             resident.reset();
     }
 
     /// The scene on the device, after keepOnly().
-    const SceneBuffers &buffersOf(const Job &job, const ScenePlan &plan, bool isSkipList) {
+    const SceneBuffers &buffersOf(const Job &job, const ScenePlan &plan, const KernelRow &kernel) {
         if (!resident) {
             const std::uint64_t before = device->allocatedBytes();
-            SceneBuffers buffers(*device, job.scene, plan, isSkipList);
-            resident.emplace(ResidentScene{job.scene.serial, isSkipList, device->allocatedBytes() - before,
+            SceneBuffers buffers(*device, job.scene, plan, kernel);
+            resident.emplace(ResidentScene{job.scene.serial, kernel, device->allocatedBytes() - before,
                                            std::move(buffers)});
         }
         resident->buffers.setFrame(frameOf(job.scene, job.settings));
@@ -217,7 +229,7 @@ class Renderer::Attempt {
             const RenderHooks &hooks, Result &result)
         : state_(state), scene_(scene), settings_(settings), isBegun_(isBegun), hooks_(hooks),
           result_(result), config_(state.configFor(scene, settings.integrator, showsWork(settings))),
-          scenePlan_(planScene(scene, isSkipList())) {}
+          scenePlan_(planScene(scene, *config_.kernel)) {}
 
     void run() {
         if (hooks_.timeline != nullptr)
@@ -225,7 +237,7 @@ class Renderer::Attempt {
         const std::vector<Crop> bands = cutIntoBands(result_.film, state_.info);
         const Job firstJob = jobOf(bands.front());
         const JobPlan firstPlan = planJob(firstJob, config_, state_.info);
-        state_.keepOnly(scene_, isSkipList());
+        state_.keepOnly(scene_, *config_.kernel);
         result_.memory = state_.requireMemory(scenePlan_, firstPlan);
         // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers, if they are not
         // there.
@@ -234,7 +246,7 @@ class Renderer::Attempt {
             TileRenderer::makePipeline(*state_.device, state_.pipelines, config_, firstJob, scenePlan_,
                                        firstPlan);
         });
-        const SceneBuffers &buffers = state_.buffersOf(firstJob, scenePlan_, isSkipList());
+        const SceneBuffers &buffers = state_.buffersOf(firstJob, scenePlan_, *config_.kernel);
         result_.timing.uploadSeconds = endStage("upload");
         for (const Crop &band : bands)
             if (!renderBand(band, buffers, firstPipeline))
@@ -242,8 +254,6 @@ class Renderer::Attempt {
     }
 
   private:
-    [[nodiscard]] bool isSkipList() const { return config_.traversal == Traversal::SkipList; }
-
     [[nodiscard]] Job jobOf(const Crop &band) const {
         return {scene_, settings_, band, 0, static_cast<std::uint32_t>(settings_.samplesPerPixel), false};
     }
@@ -394,12 +404,12 @@ std::vector<layout::TraceEvent> Renderer::trace(const PackedScene &scene, const 
     if (!state_->device)
         state_->reopen();
     const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
-    const bool isSkipList = config.traversal == Traversal::SkipList;
-    const ScenePlan scenePlan = planScene(scene, isSkipList);
+    const KernelRow &kernel = *config.kernel;
+    const ScenePlan scenePlan = planScene(scene, kernel);
     const JobPlan jobPlan = planJob(job, config, state_->info);
-    state_->keepOnly(scene, isSkipList);
+    state_->keepOnly(scene, kernel);
     (void)state_->requireMemory(scenePlan, jobPlan);
-    const SceneBuffers &buffers = state_->buffersOf(job, scenePlan, isSkipList);
+    const SceneBuffers &buffers = state_->buffersOf(job, scenePlan, kernel);
     TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan, jobPlan);
     tiles.makeKernel();
     (void)tiles.run({});

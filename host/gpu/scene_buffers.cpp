@@ -18,8 +18,10 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList)
-    : lists_(isSkipList ? makeSkipList(scene) : SkipList{}) {
+SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan,
+                           const KernelRow &kernel)
+    : lists_(kernel.tree == KernelTree::SkipLists ? makeSkipList(scene) : SkipList{}) {
+    const bool isSkipList = kernel.tree == KernelTree::SkipLists;
     const auto treeBytes =
         isSkipList ? std::as_bytes(std::span(lists_.nodes)) : std::as_bytes(std::span(scene.nodes));
     BufferPlan treePlan = plan.buffers[layout::bindingNodes];

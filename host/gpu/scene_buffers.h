@@ -11,9 +11,8 @@
 namespace hyalite::core::gpu {
 
 struct SceneBuffers {
-    /// Uploads the scene, with the tree as node pairs in storage buffers or as skip lists in texel buffers; `plan` was
-    /// made for the same choice. Throws as Buffer does.
-    SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, bool isSkipList);
+    /// Uploads the scene as `kernel` reads it; `plan` was made for it. Throws as Buffer does.
+    SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan, const KernelRow &kernel);
 
     /// Uploads the frame of a render. Every render begins with it.
     void setFrame(const layout::FrameRecord &frame);
@@ -21,7 +20,7 @@ struct SceneBuffers {
     std::vector<Buffer> buffers; ///< by binding
 
   private:
-    SkipList lists_; ///< without their nodes and instances, which are uploaded
+    SkipList lists_; ///< if the kernel's tree is one; without their nodes and instances, which are uploaded
 };
 
 } // namespace hyalite::core::gpu

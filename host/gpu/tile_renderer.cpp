@@ -89,11 +89,10 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     const LightPlanes light = lightPlanesOf(scene, job.settings);
     constants[layout::constantLightClasses] = light.classes;
     constants[layout::constantLightGroups] = light.groups;
+    const bool testsPairs = config.kernel->tree == KernelTree::SkipLists;
     constants[layout::constantTrianglePairs] =
-        config.traversal == Traversal::SkipList
-            ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator))
-            : 0;
-    constants[layout::constantHasPairs] = config.traversal == Traversal::SkipList && scene.hasPairs;
+        testsPairs ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator)) : 0;
+    constants[layout::constantHasPairs] = testsPairs && scene.hasPairs;
     constants[layout::constantView] = rowOf(job.settings.integrator).view;
     constants[layout::constantPlaceCount] = static_cast<std::uint32_t>(scene.places.size());
     constants[layout::constantTallies] = rowOf(job.settings.integrator).tallies();
@@ -123,7 +122,7 @@ std::shared_ptr<Pipeline> pipelineOf(Device &device, PipelineCache &pipelines, c
     return pipelines.get(
         device,
         fmt::format("{} {}{}", nameOf(job.settings.integrator), kernelName(config),
-                    isResumable && config.traversal == Traversal::SkipList ? ", resumable" : ""),
+                    isResumable && config.kernel->lanes == KernelLanes::Exchanging ? ", resumable" : ""),
         kernelWords(config, job.settings.integrator), constantsOf(config, job, plan, isResumable), uses);
 }
 
@@ -169,7 +168,7 @@ void TileRenderer::moveTo(const Tile &tile) {
     dispatch_.tileWidth = tile.width;
     dispatch_.tileHeight = tile.height;
     const std::uint32_t slotsPerGroup =
-        workgroupSize * static_cast<std::uint32_t>(config_.slotsPerInvocation);
+        workgroupSize * static_cast<std::uint32_t>(config_.kernel->raysAtOnce);
     groupCount_ = groupsFor(slotCount(tile), slotsPerGroup);
     dispatch_.samplesPerSlot =
         std::clamp(slotCount(tile) / (slotsPerGroup * regenerationGroups), 1u, maxSamplesPerSlot);
@@ -305,7 +304,7 @@ TileRenderer::Step TileRenderer::dispatch(Program &program, bool isResumed, Run 
     totals.rays += raysOf(step.counters);
     totals.work += workOf(step.counters);
     totals.lanes += lanesOf(step.counters, device_.info().subgroupSize *
-                                               static_cast<std::uint32_t>(config_.slotsPerInvocation));
+                                               static_cast<std::uint32_t>(config_.kernel->raysAtOnce));
     if (run.timeline != nullptr)
         run.timeline->dispatches.push_back(describe(program, step, isResumed));
     ++totals.dispatchCount;

@@ -12,10 +12,8 @@ std::vector<std::pair<std::string_view, std::string_view>> chosenKernels(const g
                                                                          const Tuning &tuning) {
     std::vector<std::pair<std::string_view, std::string_view>> chosen;
     for (const auto &[name, workload] : gpu::workloadNames) {
-        const gpu::KernelChoice &measured = tuning.kernels[static_cast<std::size_t>(workload)];
-        chosen.emplace_back(name, measured.traversal != gpu::Traversal::Automatic
-                                      ? gpu::kernelName(measured)
-                                      : gpu::kernelName(gpu::completed({}, device, workload)));
+        const gpu::KernelRow *measured = tuning.kernels[static_cast<std::size_t>(workload)];
+        chosen.emplace_back(name, (measured != nullptr ? *measured : chooseKernel(device, workload)).name);
     }
     return chosen;
 }

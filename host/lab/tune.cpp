@@ -49,16 +49,13 @@ KernelRates measure(const Trial &trial, const std::string &deviceName, Observer 
     const RenderSettings &settings = scene.loaded.settings;
 
     const gpu::Workload workload = gpu::workloadOf(scene.packed, settings.integrator);
-    const std::string_view usual = gpu::kernelName(gpu::completed({}, device, workload));
-    KernelRates rates{trial.workload, trial.scene, std::vector<double>(gpu::namedKernels.size(), 0.0), 0};
+    const gpu::KernelRow &usual = gpu::chooseKernel(device, workload);
+    KernelRates rates{trial.workload, trial.scene, std::vector<double>(gpu::kernelTable.size(), 0.0), 0};
     std::vector<gpu::Renderer> renderers;
-    for (const auto &[name, choice] : gpu::namedKernels) {
-        gpu::RenderConfig config;
-        config.traversal = choice.traversal;
-        config.slotsPerInvocation = choice.slotsPerInvocation;
-        if (name == usual)
+    for (const gpu::KernelRow &kernel : gpu::kernelTable) {
+        if (&kernel == &usual)
             rates.best = renderers.size();
-        renderers.emplace_back(device, config);
+        renderers.emplace_back(device, gpu::RenderConfig{.kernel = &kernel});
     }
     std::vector<double> minGain(renderers.size(),
                                 std::numeric_limits<double>::max()); // over the default kernel
@@ -77,8 +74,8 @@ KernelRates measure(const Trial &trial, const std::string &deviceName, Observer 
             else if (device.areBitsPromised() && differingPixelCount(*wanted, result.film) > 0)
                 throw Error(ErrorKind::DeviceLost,
                             fmt::format("the kernels {} and {} render {} differently on {}",
-                                        gpu::namedKernels.front().first, gpu::namedKernels[i].first,
-                                        trial.scene, device.name),
+                                        gpu::kernelTable.front().name, gpu::kernelTable[i].name, trial.scene,
+                                        device.name),
                             Remedy::CompareRenders);
             rateNow[i] = static_cast<double>(result.rays.total()) * 1e-6 /
                          std::max(result.timing.renderSeconds, std::numeric_limits<double>::min());

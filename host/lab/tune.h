@@ -16,7 +16,7 @@ namespace hyalite::core {
 struct KernelRates {
     gpu::Workload workload = gpu::Workload::Spheres;
     std::string scene;                     ///< name of a shipped scene
-    std::vector<double> megaraysPerSecond; ///< best rate of each of gpu::namedKernels
+    std::vector<double> megaraysPerSecond; ///< best rate of each of gpu::kernelTable
     /// Index of the fastest kernel; the default one unless another is always 5 % faster.
     std::size_t best = 0;
 };

@@ -19,13 +19,13 @@ namespace hyalite::core {
 namespace {
 
 struct Kernel {
-    std::string name; ///< empty for the CPU
-    gpu::KernelChoice choice{};
+    const gpu::KernelRow *row = nullptr; ///< null for the CPU
 
+    [[nodiscard]] std::string name() const { return row != nullptr ? std::string(row->name) : ""; }
     /// The cost is that of a traversal with a stack, so that other kernels have none.
     [[nodiscard]] bool renders(const ShippedFilm &film) const {
-        return choice.slotsPerInvocation <= film.maxSlots &&
-               (film.integrator != Integrator::Cost || choice.traversal != gpu::Traversal::SkipList);
+        return row == nullptr ||
+               (row->raysAtOnce <= film.maxSlots && (film.integrator != Integrator::Cost || row->hasStack));
     }
 };
 
@@ -34,15 +34,15 @@ struct Kernel {
 std::vector<std::vector<Kernel>> groupsOf(const std::string &device, const std::vector<std::string> &wanted) {
     std::vector<std::vector<Kernel>> groups(1);
     if (isReference(device)) {
-        groups.front().push_back({""});
+        groups.front().emplace_back();
         return groups;
     }
-    for (const auto &[name, choice] : gpu::namedKernels) {
-        if (!wanted.empty() && std::ranges::find(wanted, name) == wanted.end())
+    for (const gpu::KernelRow &row : gpu::kernelTable) {
+        if (!wanted.empty() && std::ranges::find(wanted, row.name) == wanted.end())
             continue;
         std::vector<Kernel> &last = groups.back();
-        const bool isOfLast = last.empty() || last.back().choice.traversal == choice.traversal;
-        (isOfLast ? last : groups.emplace_back()).push_back({std::string(name), choice});
+        const bool isOfLast = last.empty() || last.back().row->hasStack == row.hasStack;
+        (isOfLast ? last : groups.emplace_back()).push_back({&row});
     }
     return groups;
 }
@@ -72,10 +72,8 @@ Renderers openAll(const std::vector<Kernel> &kernels, const std::vector<Task> &t
     for (const Task &task : tasks) {
         if (renderers[task.kernel] != nullptr)
             continue;
-        const Kernel &kernel = kernels[task.kernel];
         DeviceOptions options;
-        if (!kernel.name.empty())
-            options.kernel = kernel.choice;
+        options.kernel = kernels[task.kernel].row;
         renderers[task.kernel] = openBackend(device, observer, {}, renderConfigFor(options));
     }
     return renderers;
@@ -127,11 +125,11 @@ FilmVerdict judge(Backend &backend, const Kernel &kernel, const PreparedScene &s
                   Observer &observer) {
     FilmVerdict verdict;
     verdict.film = film;
-    verdict.kernel = kernel.name;
+    verdict.kernel = kernel.name();
     Stopwatch watch;
     try {
         Timeline timeline;
-        RenderHooks hooks{.timeline = kernel.name.empty() ? nullptr : &timeline};
+        RenderHooks hooks{.timeline = kernel.row == nullptr ? nullptr : &timeline};
         hooks.shouldStop = [&] { return observer.wantsStop().has_value(); };
         const BackendResult result = backend.render(scene.packed, scene.loaded.settings, scene.crop, hooks);
         verdict.seconds = watch.lap().seconds();

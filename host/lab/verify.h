@@ -52,7 +52,7 @@ struct DeviceVerdict {
     [[nodiscard]] bool isPassed() const;
 };
 
-/// Renders `shipped.films` on "cpu", or on a device as openBackend() takes it, with those of gpu::namedKernels that
+/// Renders `shipped.films` on "cpu", or on a device as openBackend() takes it, with those of gpu::kernelTable that
 /// `wanted` names and the device can run (none: all of them), several at a time. `onFilm` gets each verdict with the
 /// finished share of the work, from one thread at a time. Devices that fail while they render do not throw. Throws as
 /// openBackend() and prepareScene() do, and Error of the stop's kind once the observer wants one.

@@ -1,33 +1,32 @@
+#include "shaders/embedded_kernels.h"
 #include "tests/bench/meshes.h"
 #include "tests/bench/race.h"
 #include "tests/bench/subject.h"
 #include "tests/bench/suites.h"
-#include "traceRaysSkipOneSlot.h"
-#include "traceRaysSkipTwoSlots.h"
-#include "traceRaysStackOneSlot.h"
-#include "traceRaysStackTwoSlots.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
 
-namespace hyalite::core::bench {
+namespace hyalite::core {
+
+/// trace_rays.comp by each kernel.
+[[nodiscard]] std::span<const EmbeddedKernel> benchKernels();
+
+namespace bench {
 
 namespace {
 
-/// A kernel, and how often it is run: the slow ones are steady too.
-struct Contestant {
-    gpu::RayKernel kernel;
-    int iterations;
-};
+gpu::RayKernel rayKernelOf(const gpu::KernelRow &row) {
+    return {
+        row,
+        std::ranges::find(benchKernels(), gpu::moduleName("traceRays", row), &EmbeddedKernel::name)->words};
+}
 
-const Contestant contestants[] = {
-    {{"stack, 1 ray", false, 1, traceRaysStackOneSlot}, 3},
-    {{"stack, 2 rays", false, 2, traceRaysStackTwoSlots}, 3},
-    {{"skip list, 1 ray", true, 1, traceRaysSkipOneSlot}, 9},
-    {{"skip list, 2 rays", true, 2, traceRaysSkipTwoSlots}, 9},
-};
-constexpr int iterationsOnCpu = 9;
+constexpr int iterationsOfStacks = 3; // slow, and steady too
+constexpr int iterationsOfOthers = 9;
 
 // The rounding of two programs decides otherwise at edges of triangles, and of the whole mesh; and no more than that.
 constexpr double largestShareOfDisagreements = 1e-3;
@@ -105,7 +104,7 @@ void withRays(benchmark::State &state, Context &context, const std::string &mesh
 void measureKernel(benchmark::State &state, Context &context, const std::string &mesh, RayKind kind,
                    const gpu::RayKernel &kernel) {
     withRays(state, context, mesh, kind, [&](Subject &subject, const RaySet &set, EmbreeRival &embree) {
-        gpu::RayTracer tracer(subject.onDevice(kernel.isSkipList), kernel, set.goal, set.rays);
+        gpu::RayTracer tracer(subject.onDevice(kernel.row), kernel, set.goal, set.rays);
         tracer.run();
         if (const std::size_t count = countDifferences(tracer.hits(), set.hits); count > 0) {
             state.SkipWithError(
@@ -144,22 +143,24 @@ void registerRays(Context &context) {
     for (const std::string &mesh : meshNames()) {
         for (const RayKind kind : rayKinds) {
             const std::string row = fmt::format("rays/{} {}/", mesh, nameOf(kind));
-            addBenchmark(row + "Embree 1", iterationsOnCpu, [=, &context](benchmark::State &state) {
+            addBenchmark(row + "Embree 1", iterationsOfOthers, [=, &context](benchmark::State &state) {
                 measureEmbreeOneByOne(state, context, mesh, kind);
             });
-            addBenchmark(row + "Embree 8", iterationsOnCpu, [=, &context](benchmark::State &state) {
+            addBenchmark(row + "Embree 8", iterationsOfOthers, [=, &context](benchmark::State &state) {
                 measureEmbreeByEights(state, context, mesh, kind);
             });
-            for (const Contestant &contestant : contestants)
-                addBenchmark(row + contestant.kernel.name, contestant.iterations,
-                             [=, &context](benchmark::State &state) {
-                                 measureKernel(state, context, mesh, kind, contestant.kernel);
+            for (const gpu::KernelRow &kernel : gpu::kernelTable)
+                addBenchmark(row + std::string(kernel.name),
+                             kernel.hasStack ? iterationsOfStacks : iterationsOfOthers,
+                             [=, &context, &kernel](benchmark::State &state) {
+                                 measureKernel(state, context, mesh, kind, rayKernelOf(kernel));
                              });
-            addBenchmark(row + "CPU reference", iterationsOnCpu, [=, &context](benchmark::State &state) {
+            addBenchmark(row + "CPU reference", iterationsOfOthers, [=, &context](benchmark::State &state) {
                 measureReference(state, context, mesh, kind);
             });
         }
     }
 }
 
-} // namespace hyalite::core::bench
+} // namespace bench
+} // namespace hyalite::core

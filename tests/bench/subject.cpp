@@ -40,8 +40,8 @@ const RaySet &Subject::rays(RayKind kind) {
     return found != rays_.end() ? found->second : rays_.emplace(kind, makeRays(packed(), kind)).first->second;
 }
 
-gpu::RayScene &Subject::onDevice(bool isSkipList) {
-    return onDevice_.try_emplace(isSkipList, device_, packed(), isSkipList).first->second;
+gpu::RayScene &Subject::onDevice(const gpu::KernelRow &kernel) {
+    return onDevice_.try_emplace({kernel.tree, kernel.memory}, device_, packed(), kernel).first->second;
 }
 
 const EmbreeScene &Subject::embree() {

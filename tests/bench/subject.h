@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hyalite::core::bench {
@@ -24,7 +25,7 @@ class Subject {
     /// With the tree that renders fastest: by the surface area heuristic.
     [[nodiscard]] const PackedScene &packed();
     [[nodiscard]] const RaySet &rays(RayKind kind);
-    [[nodiscard]] gpu::RayScene &onDevice(bool isSkipList);
+    [[nodiscard]] gpu::RayScene &onDevice(const gpu::KernelRow &kernel);
     [[nodiscard]] const EmbreeScene &embree();
 
   private:
@@ -32,7 +33,7 @@ class Subject {
     Scene scene_;
     std::optional<PackedScene> packed_;
     std::map<RayKind, RaySet> rays_;
-    std::map<bool, gpu::RayScene> onDevice_;
+    std::map<std::pair<gpu::KernelTree, gpu::KernelMemory>, gpu::RayScene> onDevice_;
     std::unique_ptr<EmbreeScene> embree_;
 };
 

@@ -54,14 +54,14 @@ std::string refusal(const ScenePlan &scene, const JobPlan &job, const DeviceInfo
 
 TEST(MemoryPlan, HasAllThatASceneTakes) {
     const PackedScene scene = sceneOf(1000);
-    const ScenePlan plan = planScene(scene, false);
+    const ScenePlan plan = planScene(scene, *findKernel("stack"));
     EXPECT_EQ(plan.buffers[layout::bindingTriangles].sizeBytes, 48'000u);
     EXPECT_EQ(plan.buffers[layout::bindingNormals].sizeBytes, 48'000u);
     EXPECT_EQ(plan.buffers[layout::bindingNodes].sizeBytes, 251u * 64u);
     EXPECT_EQ(plan.buffers[layout::bindingNodes].use, BufferUse::Storage);
     EXPECT_EQ(plan.buffers[layout::bindingEmitters].sizeBytes, 16u) << "a binding needs some memory";
     EXPECT_EQ(plan.hostBytes, 0u);
-    const ScenePlan listed = planScene(scene, true);
+    const ScenePlan listed = planScene(scene, *findKernel("skip-list"));
     EXPECT_EQ(listed.buffers[layout::bindingNodes].sizeBytes, (251u * 2u * 2u + 1u) * 16u)
         << "two lists with both children of each pair, and what rays at their end read";
     EXPECT_EQ(listed.buffers[layout::bindingTriangles].use, BufferUse::Texels);
@@ -71,7 +71,7 @@ TEST(MemoryPlan, HasAllThatASceneTakes) {
 
 TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
     const PackedScene scene = sceneOf(1000);
-    const RenderConfig stack = completed({.traversal = Traversal::Stack}, device());
+    const RenderConfig stack = completed({.kernel = findKernel("stack")}, device());
     const JobPlan plan = planJob(jobOf(scene, 100), stack, device());
     EXPECT_FALSE(plan.isDirect);
     EXPECT_EQ(plan.largestTile, (Tile{0, 0, 104, 104}));
@@ -84,8 +84,8 @@ TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
 }
 
 TEST(MemoryPlan, PathsWithoutATreeAreRegenerated) {
-    const RenderConfig skip = completed({.tileWidth = 64, .tileHeight = 64, .traversal = Traversal::SkipList},
-                                        device(), Workload::Spheres);
+    const RenderConfig skip = completed(
+        {.tileWidth = 64, .tileHeight = 64, .kernel = findKernel("skip-list")}, device(), Workload::Spheres);
     const auto planOf = [&](const PackedScene &scene, Integrator integrator, const RenderConfig &config) {
         const RenderSettings settings{.integrator = integrator};
         return planJob(jobOf(scene, 300, settings), config, device());
@@ -108,7 +108,7 @@ TEST(MemoryPlan, PathsWithoutATreeAreRegenerated) {
 TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
     const PackedScene scene = sceneOf(1000);
     const RenderConfig skip =
-        completed({.tileWidth = 256, .tileHeight = 256, .traversal = Traversal::SkipList}, device());
+        completed({.tileWidth = 256, .tileHeight = 256, .kernel = findKernel("skip-list")}, device());
     const JobPlan plan = planJob(jobOf(scene, 300), skip, device());
     EXPECT_TRUE(plan.isDirect);
     EXPECT_EQ(plan.samplesInFlight, 8u);
@@ -125,7 +125,7 @@ TEST(MemoryPlan, TilesAreSmallerWhereSlotsWouldTakeTooMuch) {
     const PackedScene scene = sceneOf(1000);
     const RenderSettings deep{.integrator = Integrator::Whitted, .maxDepth = 32};
     const RenderConfig stack =
-        completed({.tileWidth = 512, .tileHeight = 512, .traversal = Traversal::Stack}, device());
+        completed({.tileWidth = 512, .tileHeight = 512, .kernel = findKernel("stack")}, device());
     DeviceInfo small = device();
     small.deviceMemoryBytes = 256u << 20;
     small.maxStorageBufferBytes = 1u << 20;
@@ -145,19 +145,19 @@ TEST(MemoryPlan, TheHelperIsSmallerWhereItsSlotsWouldTakeTooMuch) {
     DeviceInfo small = device();
     small.maxTexelBufferElements = 1u << 16;
     const JobPlan plan =
-        planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small);
+        planJob(jobOf(scene, 512), completed({.kernel = findKernel("skip-list")}, small), small);
     EXPECT_EQ(plan.maxHelperPixels, 512u);
     EXPECT_EQ(plan.helperWaiting.pending.sizeBytes, 512u * 8 * 4 * sizeof(layout::PendingRay));
     small.deviceMemoryBytes = 1;
-    EXPECT_EQ(planJob(jobOf(scene, 512), completed({.traversal = Traversal::SkipList}, small), small)
+    EXPECT_EQ(planJob(jobOf(scene, 512), completed({.kernel = findKernel("skip-list")}, small), small)
                   .maxHelperPixels,
               64u);
 }
 
 TEST(MemoryPlan, IsTheSumOfAllBuffers) {
     const PackedScene scene = sceneOf(1000);
-    const RenderConfig stack = completed({.traversal = Traversal::Stack}, device());
-    const ScenePlan scenePlan = planScene(scene, false);
+    const RenderConfig stack = completed({.kernel = findKernel("stack")}, device());
+    const ScenePlan scenePlan = planScene(scene, *findKernel("stack"));
     const JobPlan job = planJob(jobOf(scene, 100), stack, device());
     const MemoryPlan memory = requireMemory(scenePlan, job, false, device());
     EXPECT_GT(memory.deviceBytes, scenePlan.buffers[layout::bindingTriangles].sizeBytes +
@@ -173,8 +173,8 @@ TEST(MemoryPlan, IsTheSumOfAllBuffers) {
 TEST(MemoryPlan, WhatDoesNotFitIsRefusedWithItsParts) {
     const PackedScene scene = sceneOf(100'000);
     DeviceInfo info = device();
-    const ScenePlan scenePlan = planScene(scene, false);
-    const JobPlan job = planJob(jobOf(scene, 64), completed({.traversal = Traversal::Stack}, info), info);
+    const ScenePlan scenePlan = planScene(scene, *findKernel("stack"));
+    const JobPlan job = planJob(jobOf(scene, 64), completed({.kernel = findKernel("stack")}, info), info);
     EXPECT_EQ(refusal(scenePlan, job, info), "");
     info.deviceMemoryBytes = 8u << 20;
     for (const char *part : {"a device, which has 8.0 MiB", "the triangles: 4.6 MiB"})
@@ -192,8 +192,8 @@ TEST(MemoryPlan, ADeviceOfSoftwareTakesTheHostsMemory) {
     PackedScene scene = sceneOf(1);
     DeviceInfo info = device();
     info.maxAllocationBytes = info.maxStorageBufferBytes = info.deviceMemoryBytes = std::uint64_t{1} << 60;
-    ScenePlan scenePlan = planScene(scene, false);
-    const JobPlan job = planJob(jobOf(scene, 8), completed({.traversal = Traversal::Stack}, info), info);
+    ScenePlan scenePlan = planScene(scene, *findKernel("stack"));
+    const JobPlan job = planJob(jobOf(scene, 8), completed({.kernel = findKernel("stack")}, info), info);
     scenePlan.buffers[layout::bindingTriangles].sizeBytes = std::uint64_t{1} << 50;
     EXPECT_EQ(refusal(scenePlan, job, info), "");
     info.type = DeviceType::Cpu;

@@ -85,11 +85,11 @@ TEST_F(Continuations, OfTheReferenceGoOnAnywhere) {
 // With a budget of a few steps nearly all copies are taken in the middle of samples.
 TEST_F(Continuations, OfADeviceGoOnAnywhere) {
     const reference::Result whole = onCpu(crop);
-    for (const gpu::Traversal traversal : {gpu::Traversal::SkipList, gpu::Traversal::Stack})
+    for (const char *kernel : {"skip-list", "stack"})
         for (const std::uint32_t steps : {0u, 9u}) {
             Collector collector(steps == 0 ? 1 : 5);
             const gpu::RenderConfig config{
-                .tileWidth = 16, .tileHeight = 16, .steps = steps, .traversal = traversal};
+                .tileWidth = 16, .tileHeight = 16, .steps = steps, .kernel = gpu::findKernel(kernel)};
             EXPECT_EQ(differingPixels(onDevice(crop, config, &collector).film, whole.film), 0u);
             ASSERT_GE(collector.parts.size(), 5u);
             for (std::size_t i = 0; i < collector.parts.size(); i += 4) {

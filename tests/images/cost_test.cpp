@@ -22,8 +22,8 @@ TEST(Cost, IsEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
         const TestScene scene = costOf(name, 3);
         const reference::Result onCpu = testing::renderOnCpu(scene);
         for (const gpu::RenderConfig &config :
-             {gpu::RenderConfig{}, gpu::RenderConfig{.slotsPerInvocation = 1},
-              gpu::RenderConfig{.steps = 100, .slotsPerInvocation = 2}}) {
+             {gpu::RenderConfig{}, gpu::RenderConfig{.kernel = gpu::findKernel("stack")},
+              gpu::RenderConfig{.steps = 100, .kernel = gpu::findKernel("stack-x2")}}) {
             const gpu::Result onDevice = testing::renderOnDevice(scene, config);
             EXPECT_EQ(testing::differingPixels(onDevice.film, onCpu.film), 0u) << name;
             EXPECT_EQ(onDevice.work, onCpu.work) << name;
@@ -79,7 +79,7 @@ TEST(Cost, IsThatOfTheIntegrator) {
 TEST(Cost, IsNotThatOfASkipList) {
     const TestScene scene = costOf("cat", 1);
     try {
-        (void)testing::renderOnDevice(scene, {.traversal = gpu::Traversal::SkipList});
+        (void)testing::renderOnDevice(scene, {.kernel = gpu::findKernel("skip-list")});
         ADD_FAILURE() << "rendered";
     } catch (const Error &error) {
         EXPECT_EQ(error.kind, ErrorKind::Usage);

@@ -20,9 +20,9 @@ namespace hyalite::core {
 namespace {
 
 /// The first divergence of any sample of the first pixel that differs.
-std::optional<Divergence> findPlanted(const TestScene &scene, std::span<const std::uint32_t> kernel) {
+std::optional<Divergence> findPlanted(const TestScene &scene, std::span<const std::uint32_t> spirv) {
     const PackedScene packed = testing::pack(scene);
-    gpu::Renderer faulty(testing::testDevice(), {.kernel = kernel});
+    gpu::Renderer faulty(testing::testDevice(), {.kernel = gpu::findKernel("stack"), .spirv = spirv});
     const Crop crop{0, scene.camera.width, 0, scene.camera.height};
     const Film film = faulty.render(packed, scene.settings, crop).film;
     const Film right = testing::renderOnCpu(scene).film;

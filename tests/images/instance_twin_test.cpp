@@ -172,7 +172,7 @@ TEST(InstanceTwins, AgreeWhenEveryFewStepsEndADispatch) {
 TEST(InstanceTwins, AgreeOnTheWorkOfAStack) {
     TestScene scene = crowd(8);
     scene.settings.integrator = Integrator::Cost;
-    const gpu::RenderConfig config{.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack};
+    const gpu::RenderConfig config{.kernel = gpu::findKernel("stack")};
     EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, renderOnCpu(scene).film), 0u);
 }
 

@@ -42,8 +42,8 @@ void expectTwins(TestScene scene, std::uint64_t minShadowRays) {
         scene.settings.tree = tree;
         const reference::Result cpu = renderOnCpu(scene);
         EXPECT_GE(cpu.rays.shadow, minShadowRays);
-        for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
-            const gpu::Result device = renderOnDevice(scene, {.traversal = traversal});
+        for (const char *kernel : {"stack", "skip-list-x2"}) {
+            const gpu::Result device = renderOnDevice(scene, {.kernel = gpu::findKernel(kernel)});
             EXPECT_EQ(differingPixels(device.film, cpu.film), 0u);
             EXPECT_EQ(device.rays, cpu.rays);
         }

@@ -109,7 +109,7 @@ TEST(NumberTwins, AgreeHoweverTheWorkIsCut) {
                            .tileHeight = 8,
                            .steps = inFlight == 4 ? 60u : 0u,
                            .samplesInFlight = inFlight,
-                           .traversal = gpu::Traversal::SkipList});
+                           .kernel = gpu::findKernel("skip-list-x2")});
     expectTwins(things(), Integrator::ObjectMatte, configs);
 }
 

@@ -49,7 +49,7 @@ void expectSameBits(std::span<const std::uint32_t> kernel, gpu::RenderConfig con
     const Words optimised = optimise(kernel);
     ASSERT_GT(optimised.size(), 1000u);
     ASSERT_NE(optimised, Words(kernel.begin(), kernel.end())) << "nothing was optimised";
-    config.kernel = optimised;
+    config.spirv = optimised;
     for (const char *name : {"spheres-nested", "cat"}) {
         const TestScene scene = testing::shippedScene(name, 96, 64, 2);
         const gpu::Result device = testing::renderOnDevice(scene, config);
@@ -60,25 +60,19 @@ void expectSameBits(std::span<const std::uint32_t> kernel, gpu::RenderConfig con
 }
 
 TEST(OptimisedKernel, OfTheStackComputesTheSameBits) {
-    expectSameBits(
-        whittedStackOneSlot,
-        {.slotsPerInvocation = 1, .arithmetic = gpu::Arithmetic::Own, .traversal = gpu::Traversal::Stack});
+    expectSameBits(whittedStackOneSlot,
+                   {.arithmetic = gpu::Arithmetic::Own, .kernel = gpu::findKernel("stack")});
     if (testing::isTestingAll())
-        expectSameBits(whittedStackTwoSlots, {.slotsPerInvocation = 2,
-                                              .arithmetic = gpu::Arithmetic::Automatic,
-                                              .traversal = gpu::Traversal::Stack});
+        expectSameBits(whittedStackTwoSlots, {.kernel = gpu::findKernel("stack-x2")});
 }
 
 TEST(OptimisedKernel, OfTheSkipListComputesTheSameBits) {
     if (!testing::isTestingAll())
         GTEST_SKIP() << "for minutes of spirv-opt";
-    expectSameBits(whittedSkipOneSlot, {.slotsPerInvocation = 1,
-                                        .arithmetic = gpu::Arithmetic::Automatic,
-                                        .traversal = gpu::Traversal::SkipList});
+    expectSameBits(whittedSkipOneSlot, {.kernel = gpu::findKernel("skip-list")});
     if (testing::isTestingAll())
-        expectSameBits(whittedSkipTwoSlots, {.slotsPerInvocation = 2,
-                                             .arithmetic = gpu::Arithmetic::Own,
-                                             .traversal = gpu::Traversal::SkipList});
+        expectSameBits(whittedSkipTwoSlots,
+                       {.arithmetic = gpu::Arithmetic::Own, .kernel = gpu::findKernel("skip-list-x2")});
 }
 
 } // namespace

@@ -53,22 +53,25 @@ TEST_P(PathRegeneration, MakeTheSameFilmWithAnyBudget) {
     struct Budget {
         std::uint32_t steps;
         int samplesInFlight;
-        int slots;
+        const char *kernel;
     };
     std::size_t turn = 0;
-    for (const auto &[steps, inFlight, slots] :
-         {Budget{0, 0, 1}, {600, 4, 2}, {120, 0, 2}, {120, 1, 1}, {30, 4, 1}, {5, 0, 1}}) {
+    for (const auto &[steps, inFlight, kernel] : {Budget{0, 0, "skip-list"},
+                                                  {600, 4, "skip-list-x2"},
+                                                  {120, 0, "skip-list-x2"},
+                                                  {120, 1, "skip-list"},
+                                                  {30, 4, "skip-list"},
+                                                  {5, 0, "skip-list"}}) {
         if (turn++ % scenes.size() != GetParam() && !testing::isTestingAll())
             continue;
         const gpu::Result result = testing::renderOnDevice(scene, packed,
                                                            {.tileWidth = 16,
                                                             .tileHeight = 24,
                                                             .steps = steps,
-                                                            .slotsPerInvocation = slots,
                                                             .samplesInFlight = inFlight,
-                                                            .traversal = gpu::Traversal::SkipList});
+                                                            .kernel = gpu::findKernel(kernel)});
         EXPECT_EQ(differingPixels(result.film, whole.film), 0u)
-            << steps << " steps, " << inFlight << " in flight, " << slots << " slots";
+            << steps << " steps, " << inFlight << " in flight, " << kernel;
         EXPECT_EQ(result.rays, whole.rays) << steps << " steps, " << inFlight << " in flight";
     }
 }
@@ -76,7 +79,7 @@ TEST_P(PathRegeneration, MakeTheSameFilmWithAnyBudget) {
 TEST_P(PathRegeneration, GoOnFromAnyFilm) {
     const Crop crop{0, 37, 0, 23};
     const gpu::RenderConfig config{
-        .tileWidth = 16, .tileHeight = 16, .steps = 100, .traversal = gpu::Traversal::SkipList};
+        .tileWidth = 16, .tileHeight = 16, .steps = 100, .kernel = gpu::findKernel("skip-list")};
     for (const int copy : {0, 3, 10}) {
         OneCopy part(copy);
         gpu::Renderer &renderer = testing::rendererBy(config);

@@ -34,18 +34,19 @@ PackedScene pack(const TestScene &scene, std::size_t maxDecoded) {
 }
 
 gpu::Renderer &rendererBy(const gpu::RenderConfig &config) {
-    assert(!config.isStaged && config.kernel.empty());
+    assert(!config.isStaged && config.spirv.empty());
     static gpu::Renderer renderer(testDevice());
     renderer.configure(config);
     return renderer;
 }
 
 std::span<const gpu::RenderConfig> allKernels() {
-    static const std::array<gpu::RenderConfig, 4> kernels{
-        {{.slotsPerInvocation = 1, .traversal = gpu::Traversal::SkipList},
-         {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack},
-         {.slotsPerInvocation = 2, .traversal = gpu::Traversal::SkipList},
-         {.slotsPerInvocation = 2, .traversal = gpu::Traversal::Stack}}};
+    static const auto kernels = [] {
+        std::array<gpu::RenderConfig, gpu::kernelTable.size()> configs;
+        for (std::size_t i = 0; i < configs.size(); ++i)
+            configs[i].kernel = &gpu::kernelTable[i];
+        return configs;
+    }();
     return kernels;
 }
 
@@ -58,7 +59,7 @@ gpu::RenderConfig cutShortKernel() {
             .tileHeight = 16,
             .steps = 60,
             .samplesInFlight = 4,
-            .traversal = gpu::Traversal::SkipList};
+            .kernel = gpu::findKernel("skip-list")};
 }
 
 gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &config, std::size_t maxDecoded) {
@@ -67,7 +68,7 @@ gpu::Result renderOnDevice(const TestScene &scene, const gpu::RenderConfig &conf
 
 gpu::Result renderOnDevice(const TestScene &scene, const PackedScene &packed,
                            const gpu::RenderConfig &config) {
-    if (config.isStaged || !config.kernel.empty())
+    if (config.isStaged || !config.spirv.empty())
         return gpu::Renderer(testDevice(), config).render(packed, scene.settings, wholeImage(scene));
     return rendererBy(config).render(packed, scene.settings, wholeImage(scene));
 }

@@ -25,7 +25,7 @@ namespace hyalite::core::testing {
 /// neither staged nor has a kernel of its own.
 [[nodiscard]] gpu::Renderer &rendererBy(const gpu::RenderConfig &config);
 
-/// The four kernels that are shipped: a traversal with a number of slots each.
+/// All kernels, in the order of their table.
 [[nodiscard]] std::span<const gpu::RenderConfig> allKernels();
 
 /// One of them, the next one for the next `turn`: scenes in turn meet all kernels. All of them for every turn if

@@ -32,8 +32,8 @@ void expectTwins(const TestScene &scene, const gpu::RenderConfig &config = {}) {
     expectTwins(scene, {&config, 1});
 }
 
-constexpr gpu::RenderConfig skipList{.traversal = gpu::Traversal::SkipList};
-constexpr gpu::RenderConfig stack{.traversal = gpu::Traversal::Stack};
+constexpr gpu::RenderConfig skipList{.kernel = gpu::findKernel("skip-list")};
+constexpr gpu::RenderConfig stack{.kernel = gpu::findKernel("stack")};
 const std::array traversals{skipList, stack};
 
 TEST(Twins, AgreeOnTheShippedScenes) {
@@ -237,7 +237,7 @@ TEST(Twins, AgreeOnEveryMaterialAndLight) {
     // Drivers take seconds for each of these kernels. AgreeOnPaths has those with other numbers of slots.
     TestScene scene = materialScene(48, 48, 3);
     expectTwins(scene, skipList);
-    expectTwins(scene, {.steps = 300, .traversal = gpu::Traversal::Stack}); // which resumes inside of paths
+    expectTwins(scene, {.steps = 300, .kernel = stack.kernel}); // which resumes inside of paths
     scene.settings.radianceLimit = 0.5;
     expectTwins(scene, skipList);
     scene.settings.integrator = Integrator::Whitted;
@@ -351,9 +351,9 @@ TestScene texturedScene(int width, int height, int samplesPerPixel) {
 TEST(Twins, AgreeOnTextures) {
     const gpu::RenderConfig configs[] = {
         skipList,
-        {.tileWidth = 16, .tileHeight = 8, .traversal = gpu::Traversal::SkipList},
+        {.tileWidth = 16, .tileHeight = 8, .kernel = skipList.kernel},
         stack,
-        {.steps = 60, .traversal = gpu::Traversal::Stack}, // which resumes inside of paths
+        {.steps = 60, .kernel = stack.kernel}, // which resumes inside of paths
     };
     expectTwins(texturedScene(48, 40, 4), configs);
 }
@@ -412,16 +412,16 @@ TEST(Twins, AgreeOnWhittedEmission) {
     expectTwins(scene);
 }
 
-void expectToResumeInsidePaths(gpu::Traversal traversal) {
+void expectToResumeInsidePaths(const gpu::KernelRow *kernel) {
     const TestScene scene = pathScene(24, 24, 3);
-    const gpu::Result result = renderOnDevice(scene, {.steps = 60, .traversal = traversal});
+    const gpu::Result result = renderOnDevice(scene, {.steps = 60, .kernel = kernel});
     EXPECT_EQ(differingPixels(result.film, renderOnCpu(scene).film), 0u);
     EXPECT_GT(result.timing.dispatchCount, 5u);
 }
 
-TEST(RenderConfig, ResumesInsidePathsByAStack) { expectToResumeInsidePaths(gpu::Traversal::Stack); }
+TEST(RenderConfig, ResumesInsidePathsByAStack) { expectToResumeInsidePaths(stack.kernel); }
 
-TEST(RenderConfig, ResumesInsidePathsByASkipList) { expectToResumeInsidePaths(gpu::Traversal::SkipList); }
+TEST(RenderConfig, ResumesInsidePathsByASkipList) { expectToResumeInsidePaths(skipList.kernel); }
 
 TEST(Twins, AgreeOnAnEmptyScene) {
     TestScene scene;
@@ -439,10 +439,10 @@ TEST(RenderConfig, ChangesNoBit) {
         EXPECT_EQ(differingPixels(renderOnDevice(scene, config).film, expected), 0u);
     };
     expectSame({.tileWidth = 8, .tileHeight = 8});
-    expectSame({.tileWidth = 64, .tileHeight = 16, .slotsPerInvocation = 1});
-    expectSame({.tileWidth = 32, .tileHeight = 64, .slotsPerInvocation = 2});
-    expectSame({.steps = 1, .slotsPerInvocation = 1});
-    expectSame({.steps = 100, .slotsPerInvocation = 2});
+    expectSame({.tileWidth = 64, .tileHeight = 16, .kernel = skipList.kernel});
+    expectSame({.tileWidth = 32, .tileHeight = 64, .kernel = gpu::findKernel("skip-list-x2")});
+    expectSame({.steps = 1, .kernel = skipList.kernel});
+    expectSame({.steps = 100, .kernel = gpu::findKernel("skip-list-x2")});
     expectSame({.isStaged = true});
     expectSame({.arithmetic = gpu::Arithmetic::Own});
 }
@@ -453,8 +453,7 @@ TEST(RenderConfig, AddsSamplesInFlightInTheirOrder) {
         std::vector<gpu::RenderConfig> configs;
         for (const int inFlight : {1, 2, 4, 8})
             for (const std::uint32_t steps : {0u, 40u})
-                configs.push_back(
-                    {.steps = steps, .samplesInFlight = inFlight, .traversal = gpu::Traversal::SkipList});
+                configs.push_back({.steps = steps, .samplesInFlight = inFlight, .kernel = skipList.kernel});
         expectTwins(shippedScene("spheres", 20, 12, samples), configs);
     }
 }
@@ -463,13 +462,10 @@ TEST(RenderConfig, AddsSamplesInFlightInTheirOrder) {
 TEST(RenderConfig, ResumesInsideTheTree) {
     const TestScene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
-    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
-        for (const int slots : {1, 2}) {
-            const gpu::Result result =
-                renderOnDevice(scene, {.steps = 20, .slotsPerInvocation = slots, .traversal = traversal});
-            EXPECT_EQ(differingPixels(result.film, expected), 0u);
-            EXPECT_GT(result.timing.dispatchCount, 5u);
-        }
+    for (const gpu::KernelRow &kernel : gpu::kernelTable) {
+        const gpu::Result result = renderOnDevice(scene, {.steps = 20, .kernel = &kernel});
+        EXPECT_EQ(differingPixels(result.film, expected), 0u) << kernel.name;
+        EXPECT_GT(result.timing.dispatchCount, 5u) << kernel.name;
     }
 }
 
@@ -478,8 +474,8 @@ TEST(RenderConfig, ResumesInsideBruteForce) {
     TestScene scene = shippedScene("cat", 8, 4, 1);
     const Film expected = renderOnCpu(scene).film;
     scene.settings.tree = TreeKind::None;
-    for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
-        const gpu::Result brute = renderOnDevice(scene, {.traversal = traversal});
+    for (const char *kernel : {"stack", "skip-list-x2"}) {
+        const gpu::Result brute = renderOnDevice(scene, {.kernel = gpu::findKernel(kernel)});
         EXPECT_EQ(differingPixels(brute.film, expected), 0u);
         EXPECT_GT(brute.timing.dispatchCount, 20u);
     }

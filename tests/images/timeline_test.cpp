@@ -92,8 +92,8 @@ TEST(Timeline, DispatchesAreNotMuchLongerThanIsWanted) {
 }
 
 TEST(Timeline, NamesTheKernelThatRan) {
-    const Recorded all = record(testing::shippedScene("spheres", 8, 8, 1), {0, 8, 0, 8},
-                                {.slotsPerInvocation = 1, .traversal = gpu::Traversal::Stack});
+    const Recorded all =
+        record(testing::shippedScene("spheres", 8, 8, 1), {0, 8, 0, 8}, {.kernel = gpu::findKernel("stack")});
     const std::string kernel = all.timeline.dispatches.front().kernel;
     EXPECT_TRUE(kernel.starts_with("whitted stack")) << kernel;
 }

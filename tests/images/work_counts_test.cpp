@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
 namespace hyalite::core {
 namespace {
@@ -16,13 +17,8 @@ WorkCounts countOnCpu(const TestScene &scene) {
     return reference::render(testing::pack(scene), scene.settings, crop, options).work;
 }
 
-gpu::RenderConfig counting(gpu::Traversal traversal, int slotsPerInvocation, std::uint32_t steps = 0) {
-    gpu::RenderConfig config;
-    config.traversal = traversal;
-    config.slotsPerInvocation = slotsPerInvocation;
-    config.steps = steps;
-    config.isCounting = true;
-    return config;
+gpu::RenderConfig counting(std::string_view kernel, std::uint32_t steps = 0) {
+    return {.steps = steps, .isCounting = true, .kernel = gpu::findKernel(kernel)};
 }
 
 TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
@@ -36,15 +32,15 @@ TEST(WorkCounts, AreEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
         EXPECT_GT(onCpu.trianglesTested, 0u);
         EXPECT_GT(onCpu.deepestStack, 1u);
         EXPECT_LE(onCpu.deepestStack, layout::maxTreeDepth);
-        EXPECT_EQ(testing::renderOnDevice(scene, counting(gpu::Traversal::Stack, 1)).work, onCpu);
-        EXPECT_EQ(testing::renderOnDevice(scene, counting(gpu::Traversal::Stack, 2, 100)).work, onCpu);
+        EXPECT_EQ(testing::renderOnDevice(scene, counting("stack")).work, onCpu);
+        EXPECT_EQ(testing::renderOnDevice(scene, counting("stack-x2", 100)).work, onCpu);
     }
 }
 
 TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
     for (const std::string name : {"cat", "studio-cat", "cornell"}) {
         TestScene scene = testing::shippedScene(name, 40, 30, 3);
-        const gpu::Result whole = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 1));
+        const gpu::Result whole = testing::renderOnDevice(scene, counting("skip-list"));
         if (name ==
             "cornell") { // few triangles in a room: each ray is tested with all of them, without a tree
             EXPECT_EQ(whole.work.nodesVisited, 0u);
@@ -56,7 +52,7 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
         EXPECT_EQ(whole.work.boxesTested, whole.work.nodesVisited) << name;
         EXPECT_GT(whole.work.trianglesTested, 0u) << name;
         EXPECT_EQ(whole.work.deepestStack, 0u) << name;
-        gpu::RenderConfig cut = counting(gpu::Traversal::SkipList, 2, 100);
+        gpu::RenderConfig cut = counting("skip-list-x2", 100);
         cut.tileWidth = 16;
         cut.samplesInFlight = 2;
         EXPECT_EQ(testing::renderOnDevice(scene, cut).work, whole.work) << name;
@@ -67,22 +63,22 @@ TEST(WorkCounts, OfSkipListsAreEqualHoweverTheWorkIsCut) {
 // pass.
 TEST(LaneCounts, AreThoseOfTheRaysThatAreTraced) {
     const TestScene scene = testing::shippedScene("cat", 64, 64, 8);
-    const gpu::Result result = testing::renderOnDevice(scene, counting(gpu::Traversal::SkipList, 2));
+    const gpu::Result result = testing::renderOnDevice(scene, counting("skip-list-x2"));
     EXPECT_EQ(result.lanes.busySlots, result.work.nodesVisited + result.work.trianglesTested);
     EXPECT_GE(result.lanes.slotsPerSubgroup, 2u);
     EXPECT_GT(result.lanes.busyShare(), 1.0 / result.lanes.slotsPerSubgroup);
     EXPECT_LT(result.lanes.busyShare(), 1.0);
     const TestScene onePixel = testing::shippedScene("cat", 1, 1, 1);
-    const gpu::Result alone = testing::renderOnDevice(onePixel, counting(gpu::Traversal::SkipList, 1));
+    const gpu::Result alone = testing::renderOnDevice(onePixel, counting("skip-list"));
     EXPECT_EQ(alone.lanes.passes, alone.lanes.busySlots);
-    const gpu::Result withStack = testing::renderOnDevice(onePixel, counting(gpu::Traversal::Stack, 1));
+    const gpu::Result withStack = testing::renderOnDevice(onePixel, counting("stack"));
     EXPECT_EQ(withStack.lanes.passes, withStack.lanes.busySlots);
 }
 
 TEST(WorkCounts, AreLeftOutUnlessAskedFor) {
     const TestScene scene = testing::shippedScene("cat", 16, 16, 1);
     EXPECT_EQ(testing::renderOnCpu(scene).work, WorkCounts{});
-    EXPECT_EQ(testing::renderOnDevice(scene, {.traversal = gpu::Traversal::Stack}).work, WorkCounts{});
+    EXPECT_EQ(testing::renderOnDevice(scene, {.kernel = gpu::findKernel("stack")}).work, WorkCounts{});
 }
 
 TEST(WorkCounts, ChangeNoPixel) {

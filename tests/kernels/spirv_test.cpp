@@ -76,24 +76,19 @@ TEST(EmbeddedKernels, UseExactOperationsOnly) {
 TEST(EmbeddedKernels, KnowTheConstantsOfTheirDuties) {
     // Constants that a module does not have are ignored: the wrong kernel would do without what it was told.
     for (const Integrator integrator : {Integrator::Whitted, Integrator::Path, Integrator::Cost}) {
-        for (const gpu::Traversal traversal : {gpu::Traversal::Stack, gpu::Traversal::SkipList}) {
-            for (const int slots : {1, 2}) {
-                gpu::RenderConfig config;
-                config.traversal = traversal;
-                config.slotsPerInvocation = slots;
-                std::set<std::uint32_t> known;
-                for (const Instruction &instruction :
-                     SpirvModule(gpu::kernelWords(config, integrator)).instructions)
-                    if (instruction.opcode == spv::Op::OpDecorate &&
-                        instruction.operands[1] == static_cast<std::uint32_t>(spv::Decoration::SpecId))
-                        known.insert(instruction.operands[2]);
-                for (const std::uint32_t id :
-                     {layout::constantCamera, layout::constantTexturing, layout::constantScattering,
-                      layout::constantLighting, layout::constantShowsCost, layout::constantIsCounting,
-                      layout::constantIsTracing, layout::constantIsResumable, layout::constantExactDivision})
-                    EXPECT_TRUE(known.contains(id)) << "integrator " << static_cast<int>(integrator) << ", "
-                                                    << slots << " slots, constant " << id;
-            }
+        for (const gpu::KernelRow &kernel : gpu::kernelTable) {
+            std::set<std::uint32_t> known;
+            for (const Instruction &instruction :
+                 SpirvModule(gpu::kernelWords({.kernel = &kernel}, integrator)).instructions)
+                if (instruction.opcode == spv::Op::OpDecorate &&
+                    instruction.operands[1] == static_cast<std::uint32_t>(spv::Decoration::SpecId))
+                    known.insert(instruction.operands[2]);
+            for (const std::uint32_t id :
+                 {layout::constantCamera, layout::constantTexturing, layout::constantScattering,
+                  layout::constantLighting, layout::constantShowsCost, layout::constantIsCounting,
+                  layout::constantIsTracing, layout::constantIsResumable, layout::constantExactDivision})
+                EXPECT_TRUE(known.contains(id)) << "integrator " << static_cast<int>(integrator) << ", "
+                                                << kernel.name << ", constant " << id;
         }
     }
 }

@@ -27,17 +27,11 @@ std::size_t differingPixels(const Film &a, const Film &b) {
     return count;
 }
 
-/// One device for each traversal.
-gpu::Renderer &rendererOf(gpu::Traversal traversal) {
-    const auto open = [](gpu::Traversal wanted) {
-        gpu::RenderConfig config;
-        config.traversal = wanted;
-        config.slotsPerInvocation = 1;
-        return gpu::Renderer(testDevice(), config);
-    };
-    static gpu::Renderer stack = open(gpu::Traversal::Stack);
-    static gpu::Renderer skipList = open(gpu::Traversal::SkipList);
-    return traversal == gpu::Traversal::Stack ? stack : skipList;
+/// A skip list; for the cost a stack.
+gpu::Renderer &rendererOf(Integrator integrator) {
+    static gpu::Renderer stack(testDevice(), {.kernel = gpu::findKernel("stack")});
+    static gpu::Renderer skipList(testDevice(), {.kernel = gpu::findKernel("skip-list")});
+    return integrator == Integrator::Cost ? stack : skipList;
 }
 
 class Flag : public ::testing::TestWithParam<FlagScene> {};
@@ -52,8 +46,7 @@ TEST_P(Flag, IsSetForTheSceneThatNeedsItAndMakesItsPicture) {
     EXPECT_EQ(row.word(packed), row.expected);
     const Crop crop{0, row.scene.camera.width, 0, row.scene.camera.height};
     const reference::Result cpu = reference::render(packed, settings, crop);
-    gpu::Renderer &renderer = rendererOf(settings.integrator == Integrator::Cost ? gpu::Traversal::Stack
-                                                                                 : gpu::Traversal::SkipList);
+    gpu::Renderer &renderer = rendererOf(settings.integrator);
     const gpu::Result device = renderer.render(packed, settings, crop);
     EXPECT_EQ(differingPixels(device.film, cpu.film), 0u);
     EXPECT_EQ(device.rays, cpu.rays);

@@ -81,10 +81,10 @@ std::optional<Fault> difference(const Film &film, const RayCounts &rays, const s
 } // namespace
 
 SceneCheck::SceneCheck(const std::vector<std::string> &kernels) {
-    for (const auto &[name, choice] : gpu::namedKernels)
-        if (std::ranges::count(kernels, name) > 0 ||
-            (kernels.empty() && gpu::lackFor(choice.traversal, testDevice()).empty()))
-            kernels_.push_back(name);
+    for (const gpu::KernelRow &row : gpu::kernelTable)
+        if (std::ranges::count(kernels, row.name) > 0 ||
+            (kernels.empty() && gpu::lackFor(row, testDevice()).empty()))
+            kernels_.push_back(row.name);
     if (std::ranges::count(kernels, noKernel) > 0)
         kernels_.push_back(noKernel);
     if (kernels_.size() < kernels.size() || kernels_.empty())
@@ -103,12 +103,7 @@ gpu::Renderer &SceneCheck::rendererOf(const Way &way) {
     const auto found = renderers_.find({way.kernel, way.isHurried});
     if (found != renderers_.end())
         return found->second;
-    const gpu::KernelChoice choice = std::ranges::find(gpu::namedKernels, way.kernel,
-                                                       &std::pair<std::string_view, gpu::KernelChoice>::first)
-                                         ->second;
-    gpu::RenderConfig config;
-    config.traversal = choice.traversal;
-    config.slotsPerInvocation = choice.slotsPerInvocation;
+    gpu::RenderConfig config{.kernel = gpu::findKernel(way.kernel)};
     if (way.isHurried) {
         config.steps = 61;
         config.samplesInFlight = 2;

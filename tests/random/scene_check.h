@@ -27,7 +27,7 @@ inline constexpr std::string_view noKernel = "cpu";
 
 /// One way to render: none changes the picture.
 struct Way {
-    std::string_view kernel;  ///< of gpu::namedKernels, or noKernel
+    std::string_view kernel;  ///< of gpu::kernelTable, or noKernel
     bool isHurried = false;   ///< dispatches end after few steps, so that samples wait in between
     bool isEncoded = false;   ///< textures keep their 8-bit levels
     bool isFlattened = false; ///< instances become meshes

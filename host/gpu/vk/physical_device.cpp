@@ -99,8 +99,9 @@ void describeByProperties2(VkPhysicalDevice device, std::uint32_t apiVersion, De
     info.canShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                       (subgroup.supportedOperations & operations) == operations;
     info.maxAllocationBytes = allocations.maxMemoryAllocationSize;
-    if (info.isUsable() && !lackFor(Traversal::SkipList, info).empty())
-        info.rejection = lackFor(Traversal::Stack, info);
+    const auto canRun = [&](const KernelRow &kernel) { return lackFor(kernel, info).empty(); };
+    if (info.isUsable() && std::ranges::none_of(kernelTable, canRun))
+        info.rejection = lackFor(kernelTable.front(), info);
     if (hasDriver) {
         const std::string_view details = driver.driverInfo; // SwiftShader has none
         info.driver = fmt::format("{}{}{}", driver.driverName, details.empty() ? "" : " ", details);

@@ -1,0 +1,142 @@
+// The kernels: a row for each way through the tree and the memory. Code that depends on the choice asks the row.
+#pragma once
+
+#include "host/gpu/vk/device_list.h"
+#include "host/packing/packed_scene.h"
+#include "host/scene/settings.h"
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace hyalite::core::gpu {
+
+/// Kinds of scenes for which different kernels are fast.
+enum class Workload {
+    Spheres,   ///< no tree: kernels compute and rarely read
+    Triangles, ///< rays go through a tree
+    Shading    ///< most code is shading: paths with rough surfaces or an environment
+};
+
+inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNames{
+    {{"spheres", Workload::Spheres}, {"triangles", Workload::Triangles}, {"shading", Workload::Shading}}};
+
+[[nodiscard]] Workload workloadOf(const PackedScene &scene, Integrator integrator);
+
+/// The tree in device memory.
+enum class KernelTree {
+    NodePairs, ///< that of the packed scene
+    SkipLists  ///< made of it for the device. Triangles are tested in pairs; few triangles have no tree
+};
+
+/// What a kernel reads the scene through.
+enum class KernelMemory {
+    StorageBuffers,
+    Texels ///< storage texel buffers, which lavapipe reads several times faster
+};
+
+/// The lanes of a subgroup.
+enum class KernelLanes {
+    Independent, ///< a slot takes the samples of its pixel one by one
+    Exchanging   ///< samples of a pixel lie side by side, and dispatches end with whole samples
+};
+
+/// Places in the automatic choice, 1 before 2; 0: a kernel that runs only by its name.
+struct KernelSuits {
+    std::array<int, workloadNames.size()> software; ///< devices that compute on the CPU, by Workload
+    int others;
+};
+
+struct KernelRow {
+    std::string_view name;  ///< the word for it, here and in files
+    std::string_view trace; ///< its traversal, in the names of SPIR-V modules
+    KernelTree tree;
+    bool hasStack; ///< one for each slot, in a buffer; and its work is that of the cost
+    KernelMemory memory;
+    KernelLanes lanes;
+    int raysAtOnce; ///< path slots of an invocation, 1 or 2
+    KernelSuits suits;
+};
+
+/// shaders/CMakeLists.txt has a row for each (tests/gpu/kernel_table_test.cpp compares both). The first one needs the
+/// least of a device.
+///
+/// On a GPU other subgroups hide the latency of memory. On a CPU two independent rays do, where there is a tree; without
+/// one they are only more code. Where shading searches, lavapipe does not unroll the loop over slots around it and keeps
+/// slots in memory: 6 times slower, 20 times with textures. Unrolled by us, two slots gain nothing there, and pipelines
+/// take longer.
+inline constexpr std::array<KernelRow, 4> kernelTable{{{.name = "stack",
+                                                        .trace = "Stack",
+                                                        .tree = KernelTree::NodePairs,
+                                                        .hasStack = true,
+                                                        .memory = KernelMemory::StorageBuffers,
+                                                        .lanes = KernelLanes::Independent,
+                                                        .raysAtOnce = 1,
+                                                        .suits = {.software = {3, 4, 3}, .others = 1}},
+                                                       {.name = "stack-x2",
+                                                        .trace = "Stack",
+                                                        .tree = KernelTree::NodePairs,
+                                                        .hasStack = true,
+                                                        .memory = KernelMemory::StorageBuffers,
+                                                        .lanes = KernelLanes::Independent,
+                                                        .raysAtOnce = 2,
+                                                        .suits = {.software = {4, 3, 4}, .others = 3}},
+                                                       {.name = "skip-list",
+                                                        .trace = "Skip",
+                                                        .tree = KernelTree::SkipLists,
+                                                        .hasStack = false,
+                                                        .memory = KernelMemory::Texels,
+                                                        .lanes = KernelLanes::Exchanging,
+                                                        .raysAtOnce = 1,
+                                                        .suits = {.software = {1, 2, 1}, .others = 2}},
+                                                       {.name = "skip-list-x2",
+                                                        .trace = "Skip",
+                                                        .tree = KernelTree::SkipLists,
+                                                        .hasStack = false,
+                                                        .memory = KernelMemory::Texels,
+                                                        .lanes = KernelLanes::Exchanging,
+                                                        .raysAtOnce = 2,
+                                                        .suits = {.software = {2, 1, 2}, .others = 4}}}};
+
+/// The words for kernels; null: by device and scene.
+inline constexpr auto kernelNames = [] {
+    std::array<std::pair<std::string_view, const KernelRow *>, 1 + kernelTable.size()> names{
+        {{"auto", nullptr}}};
+    for (std::size_t i = 0; i < kernelTable.size(); ++i)
+        names[1 + i] = {kernelTable[i].name, &kernelTable[i]};
+    return names;
+}();
+
+/// All of them but "auto".
+inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
+
+/// The row of a word; null for "auto", and if there is none.
+[[nodiscard]] constexpr const KernelRow *findKernel(std::string_view name) {
+    for (const auto &[word, row] : kernelNames)
+        if (word == name)
+            return row;
+    return nullptr;
+}
+
+/// The word for a kernel; "auto" for null.
+[[nodiscard]] constexpr std::string_view kernelName(const KernelRow *kernel) {
+    return kernel != nullptr ? kernel->name : "auto";
+}
+
+/// The name of the SPIR-V module of a program such as `path` by this kernel: `pathSkipTwoSlots`.
+[[nodiscard]] std::string moduleName(std::string_view program, const KernelRow &kernel);
+
+/// Whether both read the same buffers of a scene.
+[[nodiscard]] constexpr bool shareScenes(const KernelRow &a, const KernelRow &b) {
+    return a.tree == b.tree && a.memory == b.memory;
+}
+
+/// The kernel that suits the device and the workload best, among those that are allowed (all, if `isAllowed` is empty)
+/// and that the device can run. If it can run none, the first that is allowed.
+[[nodiscard]] const KernelRow &chooseKernel(const DeviceInfo &device, Workload workload,
+                                            const std::function<bool(const KernelRow &)> &isAllowed = {});
+
+} // namespace hyalite::core::gpu
