@@ -189,12 +189,15 @@ std::string inspect(const Scene &scene, const Settings &settings, bool withCover
 Verification verify(const std::string &device, const std::vector<std::string> &kernels, const Watch &watch) {
     WatchObserver observer(watch);
     return watched(observer, [&] {
-        for (const std::string &kernel : kernels)
-            static_cast<void>(core::chosenFrom(core::gpu::namedKernels, kernel, "kernels"));
+        std::vector<std::string> present;
+        for (const std::string &kernel : kernels) {
+            present.emplace_back(core::gpu::presentKernel(kernel));
+            static_cast<void>(core::chosenFrom(core::gpu::namedKernels, present.back(), "kernels"));
+        }
         const core::ShippedFilms shipped = core::readShippedFilms();
         observer.begin("verify", false);
         const std::array verdicts{
-            core::verifyDevice(device, shipped, observer, kernels,
+            core::verifyDevice(device, shipped, observer, present,
                                [&](const core::FilmVerdict &, double share) { observer.progress(share); })};
         observer.end();
         return Verification{verdicts[0].isPassed(),

@@ -45,7 +45,8 @@ namespace {
 core::DeviceOptions deviceOptionsOf(const RendererOptions &options) {
     core::DeviceOptions device;
     if (!options.kernel.empty())
-        device.kernel = core::chosenFrom(core::gpu::kernelNames, options.kernel, "kernel");
+        device.kernel = core::chosenFrom(core::gpu::kernelNames,
+                                         std::string(core::gpu::presentKernel(options.kernel)), "kernel");
     if (options.dispatchMillis > 0.0)
         device.maxDispatchMillis = options.dispatchMillis;
     return device;

@@ -1,5 +1,6 @@
 #include "host/cli/device_options.h"
 
+#include "host/base/message.h"
 #include "host/cli/options.h"
 #include "host/scene/limits.h"
 
@@ -28,11 +29,19 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
     addChoice(command, "--kernel", options.kernel, gpu::kernelNames,
               "how kernels go through the tree (x2: two paths an invocation); auto: as `hyalite devices` "
               "says. The image "
-              "is the same");
+              "is the same")
+        ->transform([](std::string word) { return presentKernelWord(word); });
     addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
               "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "
               "display, short ones cost more. The image is the same")
         ->default_str(fmt::format("{}", options.maxDispatchMillis));
+}
+
+std::string presentKernelWord(const std::string &word) {
+    const std::string present(gpu::presentKernel(word));
+    if (present != word)
+        printMessage("note: the kernel {} is gone, as it was slower; {} is in its place\n", word, present);
+    return present;
 }
 
 } // namespace hyalite::core

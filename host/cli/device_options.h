@@ -18,4 +18,7 @@ void addThreadsOption(CLI::App &command, int &threadCount);
 /// Adds --kernel and --max-dispatch-ms, for openBackend. `options` must outlive the command.
 void addDeviceOptions(CLI::App &command, DeviceOptions &options);
 
+/// The word of a kernel, or if that is gone, of the one in its place; then a note says so.
+[[nodiscard]] std::string presentKernelWord(const std::string &word);
+
 } // namespace hyalite::core

@@ -221,7 +221,8 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
     command->add_option("--kernels", options->kernels, "only these kernels of devices")
         ->type_name("NAME,...")
         ->delimiter(',')
-        ->expected(1, -1);
+        ->expected(1, -1)
+        ->transform(presentKernelWord);
     addOutput(*command, "--junit", options->junit, "FILE.xml", "write the verdicts as JUnit XML, for CI");
     addOutput(*command, "--report", options->report, "FILE.json", "write the verdicts and all hashes");
     command->add_flag("--quiet", options->isQuiet, "print what differs, and the result only");

@@ -64,26 +64,18 @@ struct KernelRow {
 /// shaders/CMakeLists.txt has a row for each (tests/gpu/kernel_table_test.cpp compares both). The first one needs the
 /// least of a device.
 ///
-/// On a GPU other subgroups hide the latency of memory. On a CPU two independent rays do, where there is a tree; without
-/// one they are only more code. Where shading searches, lavapipe does not unroll the loop over slots around it and keeps
+/// On a GPU other subgroups hide the latency of memory. On a CPU two independent rays do, where there is a tree without a
+/// stack; otherwise they are only more code (tests/bench/README.md). Where shading searches, lavapipe does not unroll the loop over slots around it and keeps
 /// slots in memory: 6 times slower, 20 times with textures. Unrolled by us, two slots gain nothing there, and pipelines
 /// take longer.
-inline constexpr std::array<KernelRow, 4> kernelTable{{{.name = "stack",
+inline constexpr std::array<KernelRow, 3> kernelTable{{{.name = "stack",
                                                         .trace = "Stack",
                                                         .tree = KernelTree::NodePairs,
                                                         .hasStack = true,
                                                         .memory = KernelMemory::StorageBuffers,
                                                         .lanes = KernelLanes::Independent,
                                                         .raysAtOnce = 1,
-                                                        .suits = {.software = {3, 4, 3}, .others = 1}},
-                                                       {.name = "stack-x2",
-                                                        .trace = "Stack",
-                                                        .tree = KernelTree::NodePairs,
-                                                        .hasStack = true,
-                                                        .memory = KernelMemory::StorageBuffers,
-                                                        .lanes = KernelLanes::Independent,
-                                                        .raysAtOnce = 2,
-                                                        .suits = {.software = {4, 3, 4}, .others = 3}},
+                                                        .suits = {.software = {3, 3, 3}, .others = 1}},
                                                        {.name = "skip-list",
                                                         .trace = "Skip",
                                                         .tree = KernelTree::SkipLists,
@@ -99,7 +91,7 @@ inline constexpr std::array<KernelRow, 4> kernelTable{{{.name = "stack",
                                                         .memory = KernelMemory::Texels,
                                                         .lanes = KernelLanes::Exchanging,
                                                         .raysAtOnce = 2,
-                                                        .suits = {.software = {2, 1, 2}, .others = 4}}}};
+                                                        .suits = {.software = {2, 1, 2}, .others = 3}}}};
 
 /// The words for kernels; null: by device and scene.
 inline constexpr auto kernelNames = [] {
@@ -112,6 +104,18 @@ inline constexpr auto kernelNames = [] {
 
 /// All of them but "auto".
 inline constexpr std::span namedKernels = std::span(kernelNames).subspan<1>();
+
+/// Words of kernels that are gone, and those of the kernels in their places. They hold until the next version.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> formerKernels{
+    {{"stack-x2", "stack"}}};
+
+/// The word itself, or that of the kernel in its place.
+[[nodiscard]] constexpr std::string_view presentKernel(std::string_view name) {
+    for (const auto &[former, present] : formerKernels)
+        if (former == name)
+            return present;
+    return name;
+}
 
 /// The row of a word; null for "auto", and if there is none.
 [[nodiscard]] constexpr const KernelRow *findKernel(std::string_view name) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Renders all pictures of cases.txt and slow.txt and compares their md5 sums:
 #
-#   tests/bits/run.sh PROGRAM [OPTION...]     options of `hyalite render`, such as --device cpu or --kernel stack-x2
+#   tests/bits/run.sh PROGRAM [OPTION...]     options of `hyalite render`, such as --device cpu or --kernel stack
 #
 # The cost is that of a traversal with a stack: with --kernel skip-list its pictures are refused, and count as different. Set
 # VK_DRIVER_FILES for another driver. Succeeds if no picture differs.

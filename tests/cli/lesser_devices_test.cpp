@@ -78,7 +78,7 @@ TEST_F(LesserDevices, GetTheKernelThatTheyCanRun) {
     };
     EXPECT_EQ(kernelOf("", ""), "skip-list-x2");
     for (const char *fakes : {"few-images", "few-texels", "no-subgroups"})
-        EXPECT_EQ(kernelOf("", fakes), "stack-x2") << fakes;
+        EXPECT_EQ(kernelOf("", fakes), "stack") << fakes;
     EXPECT_EQ(kernelOf("", "few-storage-buffers"), "skip-list-x2");
     EXPECT_EQ(kernelOf("", "few-storage-buffers,discrete"), "skip-list");
     EXPECT_EQ(kernelOf("", "discrete"), "stack");

@@ -1,7 +1,9 @@
 // --device and --threads: which device renders, and that the image does not depend on it.
+#include "host/gpu/kernels.h"
 #include "host/gpu/processor_use.h"
 #include "tests/cli/command_line.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -170,11 +172,20 @@ TEST_F(RenderDevice, TheKernelDoesNotChangeTheImage) {
     store("sheet.obj", wavySheetObj(12));
     store("sheet.json", wavySheetScene());
     const std::string wanted = renderPfm("sheet.json" + smallOnDevice + " --device cpu");
-    for (const char *kernel : {"auto", "stack", "stack-x2", "skip-list", "skip-list-x2"})
-        EXPECT_EQ(
-            renderPfm("sheet.json" + smallOnDevice + " --device " + softwareDevice() + " --kernel " + kernel),
-            wanted)
+    for (const auto &[kernel, row] : gpu::kernelNames)
+        EXPECT_EQ(renderPfm(fmt::format("sheet.json{} --device {} --kernel {}", smallOnDevice,
+                                        softwareDevice(), kernel)),
+                  wanted)
             << kernel;
+}
+
+TEST_F(RenderDevice, TakesTheKernelInPlaceOfOneThatIsGone) {
+    const std::string line = "spheres --width 16 --height 16 --spp 1 --device " + softwareDevice();
+    const Outcome outcome = run("render " + line + " --kernel stack-x2 -o a.pfm --report r.json");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "note: the kernel stack-x2 is gone, as it was slower; stack is"))
+        << outcome;
+    EXPECT_EQ(nlohmann::json::parse(load("r.json")).at("device").at("kernel").at("name"), "stack");
 }
 
 TEST_F(RenderDevice, TheWidthOfVectorsDoesNotChangeTheImage) {

@@ -31,7 +31,7 @@ class Tuning : public CommandLine {
                                    {"date", "2026-01-02"},
                                    {"spheres", spheres},
                                    {"triangles", "stack"},
-                                   {"shading", "stack-x2"}};
+                                   {"shading", "skip-list"}};
         const std::string text = nlohmann::json{{"devices", {entry}}}.dump();
         fs::create_directory(folder / "cache");
         store("cache/tuning.json", text);
@@ -48,7 +48,7 @@ TEST_F(Tuning, MeasuresShowsAndKeeps) {
     const Outcome outcome = run("devices --tune --device " + softwareDevice());
     ASSERT_EQ(outcome.exitCode, 0) << outcome;
     for (const char *part :
-         {"Mray/s", "spheres", "triangles", "shading", "stack-x2", "skip-list-x2", "cache/tuning.json"})
+         {"Mray/s", "spheres", "triangles", "shading", "stack", "skip-list-x2", "cache/tuning.json"})
         EXPECT_TRUE(contains(outcome.output, part)) << part << outcome;
     const nlohmann::json kept = nlohmann::json::parse(load("cache/tuning.json")).at("devices");
     ASSERT_EQ(kept.size(), 1u) << kept;
@@ -61,17 +61,17 @@ TEST_F(Tuning, MeasuresShowsAndKeeps) {
 TEST_F(Tuning, OfTheseKernelsDecidesAndChangesNoBit) {
     const std::string hash = hashText(gpu::hashOfKernels());
     const std::string wanted = renderPfm(smallTuned + " --device cpu");
-    for (const char *kernel : {"stack", "stack-x2", "skip-list", "skip-list-x2"}) {
-        tune(kernel, hash);
-        EXPECT_EQ(kernelOf(smallTuned), kernel);
-        EXPECT_EQ(load("reported.pfm"), wanted) << kernel;
+    for (const gpu::KernelRow &kernel : gpu::kernelTable) {
+        tune(std::string(kernel.name), hash);
+        EXPECT_EQ(kernelOf(smallTuned), kernel.name);
+        EXPECT_EQ(load("reported.pfm"), wanted) << kernel.name;
     }
     EXPECT_EQ(kernelOf(smallTuned + " --kernel skip-list"), "skip-list") << "the command line decides first";
 }
 
 TEST_F(Tuning, OfOtherKernelsDoesNotHold) {
     const std::string usual = kernelOf(smallTuned);
-    tune("stack-x2", "0123456789abcdef");
+    tune("skip-list-x2", "0123456789abcdef");
     EXPECT_EQ(kernelOf(smallTuned), usual);
     EXPECT_TRUE(contains(run("devices").output, "--tune")) << "nothing is measured";
 }

@@ -1,4 +1,5 @@
 // verify: films of all devices against shipped hashes, and where a film differs that has other bits.
+#include "host/gpu/kernels.h"
 #include "tests/cli/fault_process.h"
 #include "tests/fixtures/test_extent.h"
 
@@ -61,9 +62,10 @@ TEST_F(Verify, MayHaveTheKernelsThatAreNamed) {
 
 TEST_F(Verify, PassesOnAllDevices) {
     // Images have each kernel's pictures on the driver at hand; to compile them all takes a minute, or half an hour.
-    const std::set<std::string> wanted =
-        isTestingAll() ? std::set<std::string>{"stack", "stack-x2", "skip-list", "skip-list-x2"}
-                       : std::set<std::string>{"skip-list"};
+    std::set<std::string> wanted{"skip-list"};
+    for (const gpu::KernelRow &kernel : gpu::kernelTable)
+        if (isTestingAll())
+            wanted.insert(std::string(kernel.name));
     const Outcome outcome = run("verify --report r.json --junit r.xml" +
                                 std::string(isTestingAll() ? "" : " --kernels skip-list"));
     EXPECT_EQ(outcome.exitCode, 0) << outcome;

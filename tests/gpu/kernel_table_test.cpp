@@ -78,13 +78,22 @@ TEST(ChooseKernel, TakesWhatSuitsTheDeviceAndTheWorkload) {
     EXPECT_EQ(chosenOn(software), "skip-list skip-list-x2 skip-list ");
     EXPECT_EQ(chosenOn(hardware), "stack stack stack ");
     software.canShuffle = false;
-    EXPECT_EQ(chosenOn(software), "stack stack-x2 stack ");
+    EXPECT_EQ(chosenOn(software), "stack stack stack ");
     hardware.maxStorageBuffersPerStage = 8;
     EXPECT_EQ(chosenOn(hardware), "skip-list skip-list skip-list ");
     hardware.canShuffle = false;
     EXPECT_EQ(chosenOn(hardware), "stack stack stack ") << "that needs the least, and is refused";
     const auto hasTwoRays = [](const KernelRow &row) { return row.raysAtOnce == 2; };
     EXPECT_EQ(chooseKernel(device(DeviceType::Cpu), Workload::Spheres, hasTwoRays).name, "skip-list-x2");
+}
+
+TEST(KernelTable, HasOthersForWordsThatAreGone) {
+    for (const auto &[former, present] : formerKernels) {
+        EXPECT_EQ(findKernel(former), nullptr) << former;
+        EXPECT_NE(findKernel(present), nullptr) << present;
+        EXPECT_EQ(presentKernel(former), present);
+    }
+    EXPECT_EQ(presentKernel("skip-list"), "skip-list");
 }
 
 } // namespace

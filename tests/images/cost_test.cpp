@@ -23,7 +23,7 @@ TEST(Cost, IsEqualOnDeviceAndCpuHoweverTheWorkIsCut) {
         const reference::Result onCpu = testing::renderOnCpu(scene);
         for (const gpu::RenderConfig &config :
              {gpu::RenderConfig{}, gpu::RenderConfig{.kernel = gpu::findKernel("stack")},
-              gpu::RenderConfig{.steps = 100, .kernel = gpu::findKernel("stack-x2")}}) {
+              gpu::RenderConfig{.steps = 100, .kernel = gpu::findKernel("stack")}}) {
             const gpu::Result onDevice = testing::renderOnDevice(scene, config);
             EXPECT_EQ(testing::differingPixels(onDevice.film, onCpu.film), 0u) << name;
             EXPECT_EQ(onDevice.work, onCpu.work) << name;

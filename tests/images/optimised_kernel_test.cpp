@@ -6,7 +6,6 @@
 #include "whittedSkipOneSlot.h"
 #include "whittedSkipTwoSlots.h"
 #include "whittedStackOneSlot.h"
-#include "whittedStackTwoSlots.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -62,8 +61,6 @@ void expectSameBits(std::span<const std::uint32_t> kernel, gpu::RenderConfig con
 TEST(OptimisedKernel, OfTheStackComputesTheSameBits) {
     expectSameBits(whittedStackOneSlot,
                    {.arithmetic = gpu::Arithmetic::Own, .kernel = gpu::findKernel("stack")});
-    if (testing::isTestingAll())
-        expectSameBits(whittedStackTwoSlots, {.kernel = gpu::findKernel("stack-x2")});
 }
 
 TEST(OptimisedKernel, OfTheSkipListComputesTheSameBits) {

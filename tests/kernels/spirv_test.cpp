@@ -25,8 +25,8 @@ bool mayDivide(const Instruction &instruction) {
 }
 
 TEST(EmbeddedKernels, AreAllListed) {
-    for (const char *name : {"startupCheck", "whittedStackOneSlot", "whittedStackTwoSlots",
-                             "pathSkipTwoSlots", "probeKernel", "unoptimisedStack", "unoptimisedSkipList"})
+    for (const char *name : {"startupCheck", "whittedStackOneSlot", "pathSkipTwoSlots", "probeKernel",
+                             "unoptimisedStack", "unoptimisedSkipList"})
         EXPECT_EQ(std::ranges::count(allKernels(), name, &EmbeddedKernel::name), 1) << name;
 }
 

@@ -95,7 +95,7 @@ Way SceneCheck::wayOf(std::uint64_t seed, const std::string &integrator) const {
     const std::uint64_t kind = seed / scenesOfKind;
     Way way{kernels_[kind % kernels_.size()], kind / 4 % 4 == 3, kind % 5 == 4, kind % 7 == 6};
     if (integrator == nameOf(Integrator::Cost) && way.kernel != noKernel) // counts a traversal with a stack
-        way.kernel = kind % 2 == 0 ? "stack" : "stack-x2";
+        way.kernel = "stack";
     return way;
 }
 
