@@ -64,34 +64,36 @@ struct KernelRow {
 /// shaders/CMakeLists.txt has a row for each (tests/gpu/kernel_table_test.cpp compares both). The first one needs the
 /// least of a device.
 ///
-/// On a GPU other subgroups hide the latency of memory. On a CPU two independent rays do, where there is a tree without a
-/// stack; otherwise they are only more code (tests/bench/README.md). Where shading searches, lavapipe does not unroll the loop over slots around it and keeps
-/// slots in memory: 6 times slower, 20 times with textures. Unrolled by us, two slots gain nothing there, and pipelines
-/// take longer.
-inline constexpr std::array<KernelRow, 3> kernelTable{{{.name = "stack",
-                                                        .trace = "Stack",
-                                                        .tree = KernelTree::NodePairs,
-                                                        .hasStack = true,
-                                                        .memory = KernelMemory::StorageBuffers,
-                                                        .lanes = KernelLanes::Independent,
-                                                        .raysAtOnce = 1,
-                                                        .suits = {.software = {3, 3, 3}, .others = 1}},
-                                                       {.name = "skip-list",
-                                                        .trace = "Skip",
-                                                        .tree = KernelTree::SkipLists,
-                                                        .hasStack = false,
-                                                        .memory = KernelMemory::Texels,
-                                                        .lanes = KernelLanes::Exchanging,
-                                                        .raysAtOnce = 1,
-                                                        .suits = {.software = {1, 2, 1}, .others = 2}},
-                                                       {.name = "skip-list-x2",
-                                                        .trace = "Skip",
-                                                        .tree = KernelTree::SkipLists,
-                                                        .hasStack = false,
-                                                        .memory = KernelMemory::Texels,
-                                                        .lanes = KernelLanes::Exchanging,
-                                                        .raysAtOnce = 2,
-                                                        .suits = {.software = {2, 1, 2}, .others = 3}}}};
+/// On a GPU other subgroups hide the latency of memory. On a CPU two rays at once do, where there is a tree without a
+/// stack; elsewhere they are only more code (tests/bench/README.md). Where shading searches, lavapipe does not unroll
+/// the loop over slots around it and keeps slots in memory: 6 times slower, 20 times with textures. Unrolled by us, two
+/// slots gain nothing there, and pipelines take longer.
+inline constexpr auto kernelTable = std::to_array<KernelRow>({
+    {.name = "stack",
+     .trace = "Stack",
+     .tree = KernelTree::NodePairs,
+     .hasStack = true,
+     .memory = KernelMemory::StorageBuffers,
+     .lanes = KernelLanes::Independent,
+     .raysAtOnce = 1,
+     .suits = {.software = {3, 3, 3}, .others = 1}},
+    {.name = "skip-list",
+     .trace = "Skip",
+     .tree = KernelTree::SkipLists,
+     .hasStack = false,
+     .memory = KernelMemory::Texels,
+     .lanes = KernelLanes::Exchanging,
+     .raysAtOnce = 1,
+     .suits = {.software = {1, 2, 1}, .others = 2}},
+    {.name = "skip-list-x2",
+     .trace = "Skip",
+     .tree = KernelTree::SkipLists,
+     .hasStack = false,
+     .memory = KernelMemory::Texels,
+     .lanes = KernelLanes::Exchanging,
+     .raysAtOnce = 2,
+     .suits = {.software = {2, 1, 2}, .others = 3}},
+});
 
 /// The words for kernels; null: by device and scene.
 inline constexpr auto kernelNames = [] {
