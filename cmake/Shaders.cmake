@@ -28,8 +28,9 @@ target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
 target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ${XXHASH_LIBRARY})
 hyalite_warnings(kernel_tool)
 
-foreach(tool IN ITEMS glsl_to_cpp layout_macros)
-    add_executable(${tool} ${PROJECT_SOURCE_DIR}/cmake/${tool}.cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_reader.cpp)
+foreach(tool IN ITEMS glsl_to_cpp glsl_probes layout_macros)
+    add_executable(${tool} ${PROJECT_SOURCE_DIR}/cmake/${tool}.cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_reader.cpp
+                   ${PROJECT_SOURCE_DIR}/cmake/leaf_declarations.cpp)
     target_include_directories(${tool} PRIVATE ${PROJECT_SOURCE_DIR})
     hyalite_warnings(${tool})
 endforeach()
@@ -135,4 +136,22 @@ function(hyalite_leaf_functions target header leaves)
     add_custom_target(${target}_header DEPENDS ${output})
     add_dependencies(${target} ${target}_header)
     target_include_directories(${target} SYSTEM INTERFACE ${PROJECT_BINARY_DIR}/kernels)
+endfunction()
+
+# hyalite_leaf_probes(TARGET LEAVES)
+#
+# Makes a probe of each leaf function that LEAVES includes, in GLSL and in C++, for TARGET: leaf_probes.glsl, leaf_words.h
+# and leaf_probe_table.h (cmake/glsl_probes.cpp).
+function(hyalite_leaf_probes target leaves)
+    set(layout ${PROJECT_SOURCE_DIR}/shaders/layout/layout.h)
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
+    set(outputs leaf_probes.glsl leaf_words.h leaf_probe_table.h)
+    list(TRANSFORM outputs PREPEND ${PROJECT_BINARY_DIR}/kernels/)
+    add_custom_command(
+        OUTPUT ${outputs}
+        COMMAND glsl_probes ${PROJECT_SOURCE_DIR} ${layout} ${PROJECT_SOURCE_DIR}/${leaves} ${outputs}
+        DEPENDS glsl_probes ${layout} ${shaders}
+        COMMENT "Making probes of leaf functions"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${outputs})
 endfunction()

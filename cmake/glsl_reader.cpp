@@ -131,3 +131,40 @@ std::vector<Declaration> declarationsOf(const Tokens &tokens) {
     }
     return declarations;
 }
+
+std::vector<Variable> fieldsOf(const Declaration &record) {
+    std::vector<Variable> fields;
+    std::vector<std::string> words;
+    for (const Token &token : record.body) {
+        if (token.kind == Token::Word)
+            words.push_back(token.text);
+        if (token.text != ";")
+            continue;
+        if (words.size() != 2)
+            throw std::runtime_error(record.name + " has a field that is not TYPE NAME;");
+        fields.push_back({words[0], words[1]});
+        words.clear();
+    }
+    return fields;
+}
+
+std::vector<Variable> parametersOf(const Declaration &function) {
+    std::vector<Variable> parameters;
+    std::vector<std::string> words;
+    const auto addOne = [&] {
+        if (words.empty())
+            return;
+        const bool isMarked = words.size() == 3; // in, out or inout
+        parameters.push_back({words[words.size() - 2], words.back(), !isMarked || words[0] != "out",
+                              isMarked && words[0] != "in"});
+        words.clear();
+    };
+    for (const Token &token : function.parameters) {
+        if (token.kind == Token::Word)
+            words.push_back(token.text);
+        else if (token.text == ",")
+            addOne();
+    }
+    addOne();
+    return parameters;
+}

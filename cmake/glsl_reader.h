@@ -21,6 +21,14 @@ struct Declaration {
     Tokens body; ///< of a struct and a function with braces; of a constant its value
 };
 
+/// A field of a struct, or a parameter of a function.
+struct Variable {
+    std::string type;
+    std::string name;
+    bool isIn = true;
+    bool isOut = false;
+};
+
 /// The text of a file. Throws std::runtime_error.
 [[nodiscard]] std::string readText(const std::string &path);
 
@@ -32,6 +40,12 @@ struct Declaration {
 
 /// Throws std::runtime_error where the tokens are anything else than structs, constants and functions.
 [[nodiscard]] std::vector<Declaration> declarationsOf(const Tokens &tokens);
+
+/// Of a struct. Throws std::runtime_error where they are not `TYPE NAME;` each.
+[[nodiscard]] std::vector<Variable> fieldsOf(const Declaration &record);
+
+/// Of a function, in order.
+[[nodiscard]] std::vector<Variable> parametersOf(const Declaration &function);
 
 /// The first token from `at` on that is no blank, or the end.
 [[nodiscard]] std::size_t afterBlanks(const Tokens &tokens, std::size_t at);

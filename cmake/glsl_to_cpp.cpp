@@ -14,14 +14,12 @@
 //
 // Leaves keep to this part of GLSL: functions, structs and constants at the top level, every function defined before it
 // is used, no swizzles (vec2(v) takes the first two components), no arrays and no preprocessor.
-#include "cmake/glsl_reader.h"
+#include "cmake/leaf_declarations.h"
 
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <map>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,48 +27,16 @@
 
 namespace {
 
-/// A declaration, and what its C++ depends on.
-struct Translated : Declaration {
-    bool isRecord = false;  ///< of layout.h
-    bool usesReal = false;  ///< has to do with floats, or is a record: a template
-    bool usesScene = false; ///< a function that reads the scene
-};
-
-const std::set<std::string> sceneWords{"frame",        "scattering",  "texturing",    "anyHit",
-                                       "lighting",     "samplerKind", "camera",       "emitterCount",
-                                       "hasTriangles", "hasNormals",  "hasInstances", "hasEmission",
-                                       "hasLightTree", "treeSpheres", "sphereCount",  "infiniteEmitterCount",
-                                       "placeCount"};
 const std::map<std::string, std::string> types{
     {"float", "Real"}, {"vec2", "Vec2<Real>"}, {"vec3", "Vec3<Real>"}, {"vec4", "Vec4<Real>"}};
 
 class Translator {
   public:
-    void add(const Declaration &added, bool isRecord = false) {
-        Translated one{added, isRecord, isRecord};
-        const auto look = [&](const Tokens &tokens) {
-            for (std::size_t i = 0; i < tokens.size(); ++i) {
-                if (isMember(tokens, i))
-                    continue;
-                const Translated *known = find(tokens[i]);
-                one.usesScene |= one.kind == Declaration::Function &&
-                                 (isSceneWord(tokens[i]) || (known != nullptr && known->usesScene));
-                one.usesReal |= isReal(tokens[i]) || (known != nullptr && known->usesReal);
-            }
-        };
-        look(one.parameters);
-        look(one.body);
-        look({{Token::Word, one.type}});
-        one.usesReal |= one.usesScene;
-        const auto [overload, isNew] = names_.emplace(one.name, declarations_.size());
-        if (!isNew && declarations_[overload->second].usesReal != one.usesReal)
-            throw std::runtime_error(one.name + " has overloads with and without floats");
-        declarations_.push_back(one);
-    }
+    explicit Translator(const LeafDeclarations &leaves) : leaves_(leaves) {}
 
     [[nodiscard]] std::string text() const {
         std::string out;
-        for (const Translated &one : declarations_)
+        for (const LeafDeclaration &one : leaves_.all())
             out += one.kind == Declaration::Struct     ? structText(one)
                    : one.kind == Declaration::Constant ? constantText(one)
                                                        : functionText(one);
@@ -78,40 +44,24 @@ class Translator {
     }
 
   private:
-    [[nodiscard]] const Translated *find(const Token &token) const {
-        const auto found = names_.find(token.text);
-        return token.kind == Token::Word && found != names_.end() ? &declarations_[found->second] : nullptr;
-    }
-
-    static bool isMember(const Tokens &tokens, std::size_t i) { return i > 0 && tokens[i - 1].text == "."; }
-
-    [[nodiscard]] bool isSceneWord(const Token &token) const {
-        return sceneWords.contains(token.text) || (token.text.starts_with("fetch") && find(token) == nullptr);
-    }
-
-    static bool isReal(const Token &token) {
-        if (token.kind != Token::Number)
-            return types.contains(token.text);
-        return !token.text.starts_with("0x") && token.text.find_first_of(".e") != std::string::npos;
-    }
-
     [[nodiscard]] std::string typeText(const std::string &type) const {
         if (const auto found = types.find(type); found != types.end())
             return found->second;
-        const Translated *known = find({Token::Word, type});
+        const LeafDeclaration *known = leaves_.find(type);
         return known != nullptr && known->kind == Declaration::Struct && known->usesReal ? type + "<Real>"
                                                                                          : type;
     }
 
     /// An expression, statements or fields. A struct that is constructed gets braces, as it has no constructor.
-    [[nodiscard]] std::string translated(const Tokens &tokens, bool isStruct = false) const {
+    [[nodiscard]] std::string translated(const LeafDeclaration &of) const {
+        const Tokens &tokens = of.body;
         std::string out;
         std::vector<bool> isBraced; // for each open bracket
         bool opensStruct = false;
         for (std::size_t i = 0; i < tokens.size(); ++i) {
             const Token &token = tokens[i];
             const bool isCalled = i + 1 < tokens.size() && tokens[i + 1].text == "(";
-            const Translated *known = isMember(tokens, i) ? nullptr : find(token);
+            const LeafDeclaration *known = isMember(tokens, i) ? nullptr : leaves_.find(token);
             if (known != nullptr && known->kind == Declaration::Function && !isCalled)
                 known = nullptr; // a field or a variable of the same name
             if (token.text == "(") {
@@ -126,13 +76,14 @@ class Translator {
             } else if (known != nullptr) {
                 out += known->usesReal ? token.text + "<Real>" : token.text;
                 opensStruct = known->kind == Declaration::Struct && isCalled;
-                if (known->usesScene) {
+                if (!known->sceneWords.empty()) {
                     const bool hasOthers = tokens[afterBlanks(tokens, i + 2)].text != ")";
                     out += hasOthers ? "(scene, " : "(scene";
                     isBraced.push_back(false);
                     ++i;
                 }
-            } else if (token.kind == Token::Word && !isStruct && !isMember(tokens, i) && isSceneWord(token)) {
+            } else if (token.kind == Token::Word && of.kind != Declaration::Struct && !isMember(tokens, i) &&
+                       leaves_.isSceneWord(token.text, of)) {
                 out += "scene." + token.text;
             } else if (token.kind == Token::Word && !isMember(tokens, i)) {
                 out += typeText(token.text);
@@ -166,30 +117,13 @@ class Translator {
     }
 
     /// A struct that a function does not change it gets by reference.
-    [[nodiscard]] std::string parametersOf(const Translated &function) const {
-        std::string out = function.usesScene ? "const SceneView<Real> &scene" : "";
-        Tokens one;
-        const auto addOne = [&] {
-            const std::size_t type = afterBlanks(one, 0);
-            if (type == one.size())
-                return;
-            const bool isOut = one[type].text == "inout" || one[type].text == "out";
-            const std::size_t at = isOut ? afterBlanks(one, type + 1) : type;
-            const std::string &name = one[afterBlanks(one, at + 1)].text;
-            const bool isStruct = find(one[at]) != nullptr;
-            const bool isByValue = !isStruct || isAssigned(name, function.body);
-            out += (out.empty() ? "" : ", ") + std::string(isOut || isByValue ? "" : "const ") +
-                   typeText(one[at].text) + (isOut || !isByValue ? " &" : " ") + name;
-        };
-        for (const Token &token : function.parameters) {
-            if (token.text == ",") {
-                addOne();
-                one.clear();
-            } else {
-                one.push_back(token);
-            }
+    [[nodiscard]] std::string parametersOf(const LeafDeclaration &function) const {
+        std::string out = function.sceneWords.empty() ? "" : "const SceneView<Real> &scene";
+        for (const Variable &one : ::parametersOf(function)) {
+            const bool isByValue = leaves_.find(one.type) == nullptr || isAssigned(one.name, function.body);
+            out += (out.empty() ? "" : ", ") + std::string(one.isOut || isByValue ? "" : "const ") +
+                   typeText(one.type) + (one.isOut || !isByValue ? " &" : " ") + one.name;
         }
-        addOne();
         return out;
     }
 
@@ -200,13 +134,12 @@ class Translator {
         return out;
     }
 
-    static std::string templateText(const Translated &one) {
+    static std::string templateText(const LeafDeclaration &one) {
         return one.usesReal ? "template <class Real> " : "";
     }
 
-    [[nodiscard]] std::string structText(const Translated &one) const {
-        std::string out =
-            plain(one.head) + templateText(one) + "struct " + one.name + " " + translated(one.body, true);
+    [[nodiscard]] std::string structText(const LeafDeclaration &one) const {
+        std::string out = plain(one.head) + templateText(one) + "struct " + one.name + " " + translated(one);
         if (!one.isRecord)
             return out + ";\n";
         // A record of the host becomes one in this precision: of floats, it is the same bytes.
@@ -224,34 +157,18 @@ class Translator {
                fields + "        }\n    }\n};\n";
     }
 
-    [[nodiscard]] std::string constantText(const Translated &one) const {
+    [[nodiscard]] std::string constantText(const LeafDeclaration &one) const {
         return plain(one.head) + templateText(one) + "inline constexpr " + typeText(one.type) + " " +
-               one.name + " = " + translated(one.body) + ";";
+               one.name + " = " + translated(one) + ";";
     }
 
-    [[nodiscard]] std::string functionText(const Translated &one) const {
+    [[nodiscard]] std::string functionText(const LeafDeclaration &one) const {
         return plain(one.head) + templateText(one) + "[[nodiscard]] inline " + typeText(one.type) + " " +
-               one.name + "(" + parametersOf(one) + ") " + translated(one.body);
+               one.name + "(" + parametersOf(one) + ") " + translated(one);
     }
 
-    std::vector<Translated> declarations_;
-    std::map<std::string, std::size_t> names_; ///< of the first overload
+    const LeafDeclarations &leaves_;
 };
-
-/// Adds the texts of the files that a file includes, each after those that it includes itself, and then its own. `file`
-/// is the one that was read last.
-void addLeaves(const std::string &root, const std::string &path, std::string &file,
-               std::vector<std::string> &texts) {
-    file = path;
-    const std::string text = readText(path);
-    std::istringstream lines(text);
-    constexpr std::string_view include = "#include \"";
-    for (std::string line; std::getline(lines, line);)
-        if (line.starts_with(include))
-            addLeaves(root, root + "/" + line.substr(include.size(), line.rfind('"') - include.size()), file,
-                      texts);
-    texts.push_back(text);
-}
 
 } // namespace
 
@@ -260,30 +177,17 @@ int main(int argumentCount, char **arguments) {
         std::fputs("glsl_to_cpp ROOT LAYOUT.h LEAVES.glsl OUT.h\n", stderr);
         return 2;
     }
-    Translator translator;
-    std::string file;
     try {
-        std::vector<std::string> texts;
-        addLeaves(arguments[1], arguments[3], file, texts);
-        file = arguments[2];
-        std::string constants; // of the layout, by their names
-        for (const Declaration &one : declarationsOf(tokensOf(glslPartOf(readText(file)))))
-            if (one.kind == Declaration::Constant)
-                constants += "using layout::" + one.name + ";\n";
-            else
-                translator.add(one, one.kind == Declaration::Struct);
-        file = arguments[3];
-        for (const std::string &text : texts)
-            for (const Declaration &one : declarationsOf(tokensOf(text)))
-                translator.add(one);
-        file = arguments[4];
-        std::ofstream out(file);
-        out << "// Made by cmake/glsl_to_cpp.cpp from the leaf functions of shaders/.\n"
-            << constants << translator.text() << "\n";
+        const LeafDeclarations leaves(arguments[1], arguments[2], arguments[3]);
+        std::ofstream out(arguments[4]);
+        out << "// Made by cmake/glsl_to_cpp.cpp from the leaf functions of shaders/.\n";
+        for (const std::string &name : leaves.layoutConstants())
+            out << "using layout::" << name << ";\n";
+        out << Translator(leaves).text() << "\n";
         if (!out.flush())
-            throw std::runtime_error("it cannot be written");
+            throw std::runtime_error(std::string(arguments[4]) + " cannot be written");
     } catch (const std::exception &error) {
-        std::fprintf(stderr, "%s: %s\n", file.c_str(), error.what());
+        std::fprintf(stderr, "%s\n", error.what());
         return 1;
     }
     return 0;

@@ -34,23 +34,15 @@ std::size_t wordCount(std::string_view type) {
     throw std::runtime_error("a field of type " + std::string(type) + ": use float, uint or vec3");
 }
 
-std::vector<Field> fieldsOf(const Declaration &record) {
+std::vector<Field> placedFieldsOf(const Declaration &record) {
     std::vector<Field> fields;
-    std::vector<std::string> words;
     std::size_t word = 0;
-    for (const Token &token : record.body) {
-        if (token.kind == Token::Word)
-            words.push_back(token.text);
-        if (token.text != ";")
-            continue;
-        if (words.size() != 2)
-            throw std::runtime_error(record.name + " has a field that is not TYPE NAME;");
-        const std::size_t count = wordCount(words[0]);
+    for (const Variable &field : fieldsOf(record)) {
+        const std::size_t count = wordCount(field.type);
         if (word % 4 + count > 4)
-            throw std::runtime_error(record.name + "." + words[1] + " crosses a row of 16 bytes");
-        fields.push_back({words[0], words[1], word});
+            throw std::runtime_error(record.name + "." + field.name + " crosses a row of 16 bytes");
+        fields.push_back({field.type, field.name, word});
         word += count;
-        words.clear();
     }
     if (word % 4 != 0)
         throw std::runtime_error(record.name + " ends inside a row of 16 bytes");
@@ -65,7 +57,7 @@ std::string loaded(const Field &field) {
 }
 
 std::string macrosOf(const Declaration &record) {
-    const std::vector<Field> fields = fieldsOf(record);
+    const std::vector<Field> fields = placedFieldsOf(record);
     const std::size_t rowCount = (fields.back().word + wordCount(fields.back().type)) / 4;
     const std::string first = "int(index) * " + std::to_string(rowCount);
     std::string visits;

@@ -1,6 +1,8 @@
 // divide and squareRoot of shaders/math/arithmetic.glsl, and the device's own, against IEEE 754.
 #include "host/gpu/hard_inputs.h"
+#include "tests/kernels/draw.h"
 #include "tests/kernels/probe_device.h"
+#include "tests/kernels/words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -46,7 +48,7 @@ struct Pair {
 
 /// Runs divide(a, b) for any number of pairs drawn by `next`, in dispatches of probeInputCount.
 template <class Next> void expectQuotients(Arithmetic arithmetic, int dispatchCount, Next &&next) {
-    Probe probe(probeDivide, 2, 1, arithmetic);
+    Probe probe(probedQuotient, 2, 1, arithmetic);
     std::vector<std::uint32_t> inputs(2 * probeInputCount);
     std::size_t wrongCount = 0;
     for (int dispatch = 0; dispatch < dispatchCount; ++dispatch) {
@@ -68,7 +70,7 @@ template <class Next> void expectQuotients(Arithmetic arithmetic, int dispatchCo
 }
 
 template <class Next> void expectRoots(Arithmetic arithmetic, int dispatchCount, Next &&next) {
-    Probe probe(probeSquareRoot, 1, 1, arithmetic);
+    Probe probe(probedRoot, 1, 1, arithmetic);
     std::vector<std::uint32_t> inputs(probeInputCount);
     std::size_t wrongCount = 0;
     for (int dispatch = 0; dispatch < dispatchCount; ++dispatch) {

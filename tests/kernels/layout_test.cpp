@@ -1,6 +1,7 @@
 // layout.h means the same bytes to the host and to a kernel: each struct, filled with distinct values, comes back field
 // by field.
 #include "tests/kernels/probe_device.h"
+#include "tests/kernels/words.h"
 
 #include "echoKernel.h"
 

@@ -4,11 +4,10 @@
 #include "tests/fixtures/test_device.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <string>
+#include <bit>
+#include <map>
 
 namespace hyalite::core::testing {
 
@@ -16,14 +15,66 @@ namespace {
 
 constexpr std::uint32_t workgroupSize = 64;
 
-std::string describe(const std::uint32_t *words, std::size_t count) {
+using SceneBuffers = std::vector<std::unique_ptr<gpu::Buffer>>; // by their bindings
+
+SceneBuffers makeBuffers(const PackedScene *packed) {
+    std::vector<std::span<const std::byte>> contents(bindingCount);
+    if (packed != nullptr) {
+        contents[layout::bindingFrame] = std::as_bytes(std::span(&packed->frame, 1));
+        for (const SceneArray &array : packed->arrays())
+            contents[array.binding] = array.bytes;
+    }
+    SceneBuffers buffers;
+    for (std::uint32_t binding = 0; binding < bindingCount; ++binding) {
+        const bool isUniform = binding < layout::uniformBufferCount;
+        constexpr std::size_t uniformBytes = sizeof(layout::TrianglePair) * layout::maxListedTriangles;
+        const std::size_t leastBytes = isUniform ? uniformBytes : 256;
+        buffers.push_back(
+            std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding),
+                                          isUniform ? gpu::BufferUse::Uniform : gpu::BufferUse::Storage,
+                                          std::max(leastBytes, contents[binding].size())));
+        if (!contents[binding].empty())
+            buffers.back()->upload(contents[binding]);
+    }
+    return buffers;
+}
+
+/// Those of a scene are shared.
+const SceneBuffers &buffersOf(const PackedScene *packed) {
+    static std::map<const PackedScene *, SceneBuffers> made;
+    const auto [place, isNew] = made.try_emplace(packed);
+    if (isNew)
+        place->second = makeBuffers(packed);
+    return place->second;
+}
+
+void setConstants(const leaves::SceneView<float> &scene, std::vector<std::uint32_t> &constants) {
+    constants[layout::constantSphereCount] = scene.sphereCount;
+    constants[layout::constantHasTriangles] = scene.hasTriangles;
+    constants[layout::constantHasNormals] = scene.hasNormals;
+    constants[layout::constantHasInstances] = scene.hasInstances;
+    constants[layout::constantTreeSpheres] = scene.treeSpheres;
+    constants[layout::constantSampler] = scene.samplerKind;
+    constants[layout::constantEmitterCount] = scene.emitterCount;
+    constants[layout::constantHasLightTree] = scene.hasLightTree;
+    constants[layout::constantInfiniteEmitters] = scene.infiniteEmitterCount;
+    constants[layout::constantHasEmission] = scene.hasEmission;
+    constants[layout::constantScattering] = scene.scattering;
+    constants[layout::constantLighting] = scene.lighting;
+    constants[layout::constantCamera] = scene.camera;
+    constants[layout::constantTexturing] = scene.texturing;
+    constants[layout::constantAnyHit] = scene.anyHit;
+    constants[layout::constantPlaceCount] = scene.placeCount;
+}
+
+} // namespace
+
+std::string describeWords(const std::uint32_t *words, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i)
         text += fmt::format(" {:08x} ({:.9g})", words[i], std::bit_cast<float>(words[i]));
     return text;
 }
-
-} // namespace
 
 gpu::Device &probeDevice() {
     static gpu::Device device(testing::testDevice());
@@ -31,54 +82,34 @@ gpu::Device &probeDevice() {
 }
 
 Probe::Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputWords,
-             gpu::Arithmetic arithmetic, const ProbeScene &scene)
-    : outputWords_(outputWords) {
-    for (std::uint32_t binding = 0; binding < probeBindingCount; ++binding) {
-        gpu::BufferUse use = gpu::BufferUse::Storage;
-        std::size_t sizeBytes = 256; // of the scene's buffers, which nothing reads
-        if (binding < layout::uniformBufferCount) {
-            use = gpu::BufferUse::Uniform;
-            sizeBytes = sizeof(layout::SphereRecord) * layout::maxUnrolledSpheres;
-        } else if (binding == bindingProbeInputs) {
-            sizeBytes = probeInputCount * inputWords * sizeof(std::uint32_t);
-        } else if (binding == bindingProbeOutputs) {
-            sizeBytes = probeInputCount * outputWords * sizeof(std::uint32_t);
-        } else if (binding == layout::bindingLookups) {
-            sizeBytes = std::max(sizeBytes, std::span(scene.lookups).size_bytes());
-        } else if (binding == layout::bindingTextures) {
-            sizeBytes = std::max(sizeBytes, std::span(scene.textures).size_bytes());
-        }
-        buffers_.push_back(
-            std::make_unique<gpu::Buffer>(probeDevice(), fmt::format("binding {}", binding), use, sizeBytes));
-    }
-    if (!scene.lookups.empty())
-        buffers_[layout::bindingLookups]->upload(std::as_bytes(std::span(scene.lookups)));
-    if (!scene.textures.empty())
-        buffers_[layout::bindingTextures]->upload(std::as_bytes(std::span(scene.textures)));
-    buffers_[layout::bindingFrame]->upload(std::as_bytes(std::span(&scene.frame, 1)));
-
-    std::array<std::uint32_t, probeConstantCount> constants{};
+             gpu::Arithmetic arithmetic, const leaves::SceneView<float> *scene, std::size_t inputCount)
+    : inputCount_(inputCount), outputWords_(outputWords),
+      inputs_(probeDevice(), "inputs", gpu::BufferUse::Storage,
+              inputCount * inputWords * sizeof(std::uint32_t)),
+      outputs_(probeDevice(), "outputs", gpu::BufferUse::Storage,
+               inputCount * outputWords * sizeof(std::uint32_t)) {
+    std::vector<std::uint32_t> constants(probeConstantCount);
+    if (scene != nullptr)
+        setConstants(*scene, constants);
     constants[layout::constantWorkgroupSize] = workgroupSize;
-    constants[layout::constantHasTriangles] = 1;
-    constants[layout::constantSampler] = scene.samplerKind;
     constants[layout::constantExactDivision] = arithmetic == gpu::Arithmetic::Native;
-    constants[layout::constantScattering] = scene.scattering;
-    constants[layout::constantTexturing] = scene.texturing;
-    constants[layout::constantCamera] = scene.camera;
     constants[constantProbedFunction] = function;
     constants[constantInputWords] = static_cast<std::uint32_t>(inputWords);
     constants[constantOutputWords] = static_cast<std::uint32_t>(outputWords);
     std::vector<const gpu::Buffer *> bound;
-    for (const std::unique_ptr<gpu::Buffer> &buffer : buffers_)
+    for (const std::unique_ptr<gpu::Buffer> &buffer : buffersOf(scene != nullptr ? &scene->packed : nullptr))
         bound.push_back(buffer.get());
+    bound.push_back(&inputs_);
+    bound.push_back(&outputs_);
     kernel_ = std::make_unique<gpu::Kernel>(probeDevice(), "probe", probeKernel, constants, bound);
 }
 
 std::vector<std::uint32_t> Probe::run(const std::vector<std::uint32_t> &inputs) {
-    buffers_[bindingProbeInputs]->upload(std::as_bytes(std::span(inputs)));
-    kernel_->run({}, probeInputCount / workgroupSize);
-    std::vector<std::uint32_t> outputs(probeInputCount * outputWords_);
-    buffers_[bindingProbeOutputs]->download(std::as_writable_bytes(std::span(outputs)));
+    if (!inputs.empty())
+        inputs_.upload(std::as_bytes(std::span(inputs)));
+    kernel_->run({}, static_cast<std::uint32_t>(inputCount_ / workgroupSize));
+    std::vector<std::uint32_t> outputs(inputCount_ * outputWords_);
+    outputs_.download(std::as_writable_bytes(std::span(outputs)));
     return outputs;
 }
 
@@ -87,48 +118,6 @@ bool isDivisionNative() {
                                                        gpu::Arithmetic::Automatic)
                                      .isNative;
     return isNative;
-}
-
-void expectTwin(std::uint32_t function, const TwinCall &call, const ProbeScene &scene) {
-    Draw draw;
-    Words input;
-    Words expected;
-    std::vector<std::uint32_t> inputs;
-    std::vector<Words::Word> wanted;
-    for (std::size_t i = 0; i < probeInputCount; ++i) {
-        input.clear();
-        expected.clear();
-        call(draw, input, expected);
-        for (const Words::Word &word : input.get())
-            inputs.push_back(word.bits);
-        wanted.insert(wanted.end(), expected.get().begin(), expected.get().end());
-    }
-    const std::size_t inputWords = input.get().size();
-    const std::size_t outputWords = expected.get().size();
-    ASSERT_EQ(inputs.size(), probeInputCount * inputWords);
-    ASSERT_EQ(wanted.size(), probeInputCount * outputWords);
-
-    for (const gpu::Arithmetic arithmetic : {gpu::Arithmetic::Native, gpu::Arithmetic::Own}) {
-        if (arithmetic == gpu::Arithmetic::Native && !isDivisionNative())
-            continue;
-        Probe probe(function, inputWords, outputWords, arithmetic, scene);
-        const std::vector<std::uint32_t> results = probe.run(inputs);
-        std::size_t wrongCount = 0;
-        std::string first;
-        for (std::size_t i = 0; i < results.size(); ++i) {
-            if (isSame(wanted[i], results[i]))
-                continue;
-            if (wrongCount++ > 0)
-                continue;
-            const std::size_t at = i / outputWords;
-            first = fmt::format("input {} of seed {}:{}\nword {}: the host has{}, the device{}", at,
-                                Draw::seed, describe(&inputs[at * inputWords], inputWords), i % outputWords,
-                                describe(&wanted[i].bits, 1), describe(&results[i], 1));
-        }
-        EXPECT_EQ(wrongCount, 0u) << (arithmetic == gpu::Arithmetic::Native ? "native" : "own")
-                                  << " / and sqrt\n"
-                                  << first;
-    }
 }
 
 } // namespace hyalite::core::testing

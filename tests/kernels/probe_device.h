@@ -3,14 +3,14 @@
 
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/vk/buffer.h"
 #include "host/gpu/vk/device.h"
-#include "shaders/layout/layout.h"
-#include "tests/kernels/draw.h"
-#include "tests/kernels/probe.h"
-#include "tests/kernels/words.h"
+#include "host/reference/scene_view.h"
+#include "tests/kernels/probe_layout.h"
 
-#include <functional>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace hyalite::core::testing {
@@ -18,42 +18,31 @@ namespace hyalite::core::testing {
 /// lavapipe, opened once, with vectors as wide as the processor's.
 [[nodiscard]] gpu::Device &probeDevice();
 
-/// What a probed function reads beside its parameters.
-struct ProbeScene {
-    layout::FrameRecord frame{};
-    std::uint32_t samplerKind = layout::samplerSobol;
-    std::vector<layout::LookupRow> lookups{};
-    std::span<const layout::TextureRow> textures{}; ///< outlives it
-    std::uint32_t scattering = 0;
-    std::uint32_t texturing = 0;
-    std::uint32_t camera = layout::cameraPinhole;
-};
-
 constexpr std::size_t probeInputCount = 65536; // of one dispatch
 
 /// One function of the probe kernel, ready to run.
 class Probe {
   public:
+    /// `function` is the number of a leaf, or one of probed... Without a scene its buffers are not read. `inputCount` is a
+    /// multiple of 64.
     Probe(std::uint32_t function, std::size_t inputWords, std::size_t outputWords, gpu::Arithmetic arithmetic,
-          const ProbeScene &scene = {});
+          const leaves::SceneView<float> *scene = nullptr, std::size_t inputCount = probeInputCount);
 
-    /// Calls the function for probeInputCount inputs, one after the other in `inputs`.
+    /// Calls the function for all inputs, one after the other in `inputs`.
     [[nodiscard]] std::vector<std::uint32_t> run(const std::vector<std::uint32_t> &inputs);
 
   private:
-    std::vector<std::unique_ptr<gpu::Buffer>> buffers_; ///< by their bindings
+    std::size_t inputCount_;
     std::size_t outputWords_;
+    gpu::Buffer inputs_;
+    gpu::Buffer outputs_;
     std::unique_ptr<gpu::Kernel> kernel_;
 };
 
-/// Draws an input, writes it as the probe takes it, and writes what the host twin makes of it.
-using TwinCall = std::function<void(Draw &draw, Words &input, Words &expected)>;
+/// Words with the floats that they are.
+[[nodiscard]] std::string describeWords(const std::uint32_t *words, std::size_t count);
 
 /// Whether renders may use the device's own / and sqrt, which are then correctly rounded.
 [[nodiscard]] bool isDivisionNative();
-
-/// Expects the function's results for probeInputCount inputs to be the twin's to the bit, with our / and sqrt and,
-/// where renders may use them, with the device's own.
-void expectTwin(std::uint32_t function, const TwinCall &call, const ProbeScene &scene = {});
 
 } // namespace hyalite::core::testing

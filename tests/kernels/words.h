@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -17,14 +18,16 @@ class Words {
         words_.push_back({value, false});
         return *this;
     }
+    Words &operator<<(bool value) { return *this << std::uint32_t{value}; }
     Words &operator<<(float value) {
         words_.push_back({std::bit_cast<std::uint32_t>(value), true});
         return *this;
     }
-    Words &operator<<(const glm::vec2 &v) { return *this << v.x << v.y; }
-    Words &operator<<(const glm::vec3 &v) { return *this << v.x << v.y << v.z; }
-    Words &operator<<(const glm::uvec2 &v) { return *this << v.x << v.y; }
-    Words &operator<<(const glm::uvec3 &v) { return *this << v.x << v.y << v.z; }
+    template <int count, class Number> Words &operator<<(const glm::vec<count, Number> &v) {
+        for (int i = 0; i < count; ++i)
+            *this << v[i];
+        return *this;
+    }
 
     struct Word {
         std::uint32_t bits;
@@ -36,6 +39,33 @@ class Words {
 
   private:
     std::vector<Word> words_;
+};
+
+/// Reads an input as the probe kernel does.
+class WordReader {
+  public:
+    explicit WordReader(const std::uint32_t *words) : next_(words) {}
+
+    WordReader &operator>>(std::uint32_t &value) {
+        value = *next_++;
+        return *this;
+    }
+    WordReader &operator>>(bool &value) {
+        value = *next_++ != 0;
+        return *this;
+    }
+    WordReader &operator>>(float &value) {
+        value = std::bit_cast<float>(*next_++);
+        return *this;
+    }
+    template <int count, class Number> WordReader &operator>>(glm::vec<count, Number> &v) {
+        for (int i = 0; i < count; ++i)
+            *this >> v[i];
+        return *this;
+    }
+
+  private:
+    const std::uint32_t *next_;
 };
 
 /// Equal to the bit; but any NaN equals any other, as no standard says which one an operation gives.
