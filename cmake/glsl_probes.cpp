@@ -9,8 +9,8 @@
 //   GLSL   void probe7() { vec3 p0 = takeVec3(); vec3 p1 = takeVec3(); give(dotProduct(p0, p1)); }
 //   C++    void probe7(const SceneView<float> &, WordReader &in, Words &out) { ... out << dotProduct<float>(p0, p1); }
 //
-// WORDS.h has the structs as words, PROBES.h the probes, a table of them, with the types and names of their parameters and
-// what they read of the scene, and one of the fields of structs: inputs are drawn by these names
+// WORDS.h has the structs as words. PROBES.h has the probes, a table of them, with the types and names of their
+// parameters and what they read of the scene, and one of the fields of structs: inputs are drawn by these names
 // (tests/kernels/leaf_inputs.cpp).
 #include "cmake/leaf_declarations.h"
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 namespace hyalite::core::testing {
@@ -32,7 +31,7 @@ float number(Draw &draw) {
                       draw.chance(2) ? exponent : -exponent);
 }
 
-/// Also infinite, or none.
+/// Also infinities and NaN.
 float anyNumber(Draw &draw) {
     constexpr std::array special{infinity, -infinity, std::numeric_limits<float>::quiet_NaN(), 0.0f, -0.0f};
     return draw.chance(12) ? special[draw.index(special.size())] : number(draw);
@@ -93,15 +92,22 @@ vec3 against(const vec3 &direction, Draw &draw) {
 
 } // namespace
 
-/// What the parameters of one call have to do with each other: a ray, what it is aimed at, and the texture that is looked
-/// up.
+/// What the parameters of one call have to do with each other: a ray, what it is aimed at, and the texture of a lookup.
 struct Situation {
     explicit Situation(const LeafScene &leafScene) : scene(leafScene.view), packed(leafScene.view.packed) {
         for (const layout::MaterialRecord &material : packed.materials)
             for (uint slot = 0; material.textures != 0 && slot < layout::textureSlotCount; ++slot)
                 if (hasTexture<float>(scene, material.textures, slot))
                     textureRows.push_back(textureRow(material.textures, slot));
+        for (uint i = 0; i < packed.emitters.size(); ++i)
+            if (packed.emitters[i].kind == layout::emitterSphere)
+                sphereEmitters.push_back(i);
+            else if (packed.emitters[i].kind == layout::emitterTriangle)
+                triangleEmitters.push_back(i);
     }
+
+    const auto &some(const auto &array) { return array[draw.index(countOf(array))]; }
+    uint indexIn(const auto &array) { return draw.index(countOf(array)); }
 
     void begin() {
         v0 = draw.point();
@@ -126,7 +132,8 @@ struct Situation {
         }
         lower = glm::min(glm::min(v0, v1), glm::min(v2, apex));
         upper = glm::max(glm::max(v0, v1), glm::max(v2, apex));
-        texture = textureRows[draw.index(countOf(textureRows))];
+        texture = some(textureRows);
+        lamp = some(sphereEmitters);
     }
 
     /// A point of the plane of the triangle, or of the one beside it, often on an edge or a vertex.
@@ -142,9 +149,6 @@ struct Situation {
             return trianglePoint(v0, v1, last, u, draw.unit() * (draw.chance(2) ? 1.0f - u : 1.0f));
         }
     }
-
-    const auto &some(const auto &array) { return array[draw.index(countOf(array))]; }
-    uint indexIn(const auto &array) { return draw.index(countOf(array)); }
 
     uint textureWidth() { return textureWords<float>(scene, texture).y & 0xFFFFu; }
     uint textureHeight() { return textureWords<float>(scene, texture).y >> 16u; }
@@ -183,17 +187,18 @@ struct Situation {
                 return one;
     }
 
-    /// An emitter of the scene.
-    EmitterRecord<float> emitter(uint kind) {
-        for (;;)
-            if (const layout::EmitterRecord &one = some(packed.emitters); one.kind == kind)
-                return one;
+    /// Often where the ray begins, or in the lamp.
+    vec3 position() {
+        const layout::SphereRecord &sphere = packed.spheres[packed.emitters[lamp].record];
+        return draw.chance(2)   ? origin
+               : draw.chance(2) ? sphere.centre + sphere.radius * draw.unit() * draw.direction()
+                                : draw.point();
     }
 
     Draw draw;
     const SceneView<float> &scene;
     const PackedScene &packed;
-    std::vector<uint> textureRows;
+    std::vector<uint> textureRows, sphereEmitters, triangleEmitters;
 
     vec3 v0{}, v1{}, v2{}, apex{}; ///< two triangles with a common edge
     vec3 centre{};
@@ -201,6 +206,7 @@ struct Situation {
     vec3 origin{}, direction{};
     vec3 lower{}, upper{}; ///< of the triangles
     uint texture = 0;      ///< row of its TextureRecord
+    uint lamp = 0;         ///< index of the emitter of a sphere
 };
 
 namespace {
@@ -208,8 +214,8 @@ namespace {
 using Row = std::function<void(Situation &, Words &)>;
 
 struct InputRow {
-    /// Several with commas between them: "TYPE LEAF.PARAMETER", also with fields after it, "TYPE STRUCT.FIELD", "TYPE NAME"
-    /// of any parameter or field, or "TYPE". The first of these that there is counts.
+    /// Several with commas between them: "TYPE LEAF.PARAMETER", also with fields after it, "TYPE STRUCT.FIELD",
+    /// "TYPE NAME" of any parameter or field, or "TYPE". The first of these that there is counts.
     const char *names;
     Row row;
 };
@@ -327,7 +333,7 @@ const std::vector<InputRow> inputRows{
     // A ray, and what it is aimed at.
     {"vec3 direction", by([](S &s) { return s.direction; })},
     {"vec3 origin", by([](S &s) { return s.origin; })},
-    {"vec3 position", by([](S &s) { return s.draw.chance(2) ? s.origin : s.draw.point(); })},
+    {"vec3 position", by([](S &s) { return s.position(); })},
     {"vec3 v0, vec3 begin", by([](S &s) { return s.v0; })},
     {"vec3 v1, vec3 end", by([](S &s) { return s.v1; })},
     {"vec3 v2, vec3 firstApex", by([](S &s) { return s.v2; })},
@@ -364,12 +370,14 @@ const std::vector<InputRow> inputRows{
     {"Bsdf", by([](S &s) { return s.bsdf(); })},
     {"SineCosine", by([](S &s) { return sineCosine(s.draw.unit()); })},
     {"SheenFit", by([](S &s) { return sheenFit(alpha(s.draw)); })},
-    {"uint EmitterChoice.index", by([](S &s) { return s.indexIn(s.packed.emitters); })},
+    {"uint EmitterChoice.index",
+     by([](S &s) { return s.draw.chance(4) ? s.lamp : s.indexIn(s.packed.emitters); })},
     {"uint pdfOfEmitter.index",
      by([](S &s) { return s.draw.chance(8) ? layout::noEmitter : s.indexIn(s.packed.emitters); })},
-    {"EmitterRecord sampleSphereLight.emitter", by([](S &s) { return s.emitter(layout::emitterSphere); })},
+    {"EmitterRecord sampleSphereLight.emitter",
+     by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.lamp]; })},
     {"EmitterRecord sampleTriangleLight.emitter",
-     by([](S &s) { return s.emitter(layout::emitterTriangle); })},
+     by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.some(s.triangleEmitters)]; })},
     {"uint splitLights.first", by([](S &s) { return s.draw.index(countOf(s.packed.lightNodes) / 2) * 2; })},
 
     // Lookups.

@@ -1,6 +1,6 @@
-// Entry kernel of the tests of functions: calls one of them for each input. Inputs and outputs are words, in the order of
-// the function's parameters and of the fields of structs. The probes of leaf functions are made from their signatures
-// (cmake/glsl_probes.cpp).
+// Entry kernel of the tests of functions: calls one of them for each input. Inputs and outputs are words, in the order
+// of the function's parameters and of the fields of structs. The probes of leaf functions are made from their
+// signatures (cmake/glsl_probes.cpp).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

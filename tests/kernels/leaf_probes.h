@@ -1,4 +1,4 @@
-// The probes of all leaf functions, in the order of the probe kernel: made from their signatures by cmake/glsl_probes.cpp.
+// The probes of all leaf functions, in the order of the probe kernel: cmake/glsl_probes.cpp makes them.
 #pragma once
 
 #include "host/reference/scene_view.h"

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -105,70 +107,76 @@ double shareOfPositive(const Expected &expected, std::size_t word) {
     return static_cast<double>(count) / static_cast<double>(inputCount);
 }
 
-std::string nameOf(std::size_t index) {
+/// How the device's results differ from those of the twin; empty if they do not.
+std::string difference(std::size_t index, const LeafScene &scene, const Expected &expected,
+                       gpu::Arithmetic arithmetic) {
     const LeafProbe &probe = leafProbes()[index];
-    const auto overloads =
-        std::count_if(leafProbes().begin(), leafProbes().begin() + static_cast<std::ptrdiff_t>(index),
-                      [&](const LeafProbe &other) { return other.name == probe.name; });
-    return std::filesystem::path(probe.file).stem().string() + "_" + probe.name +
-           (overloads > 0 ? fmt::format("_{}", overloads + 1) : "");
+    Probe kernel(static_cast<std::uint32_t>(index), expected.inputWords, expected.outputWords, arithmetic,
+                 &scene.view, expected.isCompared.size());
+    const std::vector<std::uint32_t> results = kernel.run(expected.inputs);
+    std::set<std::size_t> wrong; // inputs
+    std::string first;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const std::size_t input = i / expected.outputWords;
+        if (!expected.isCompared[input] || isEqual(probe, expected.results[i], results[i]))
+            continue;
+        if (wrong.empty())
+            first = fmt::format(
+                "input {} of seed {}:{}\nword {}: the host has{}, the device{}", input, Draw::seed,
+                describeWords(&expected.inputs[input * expected.inputWords], expected.inputWords),
+                i % expected.outputWords, describeWords(&expected.results[i].bits, 1),
+                describeWords(&results[i], 1));
+        wrong.insert(input);
+    }
+    return wrong.empty()
+               ? ""
+               : fmt::format("{} of {} inputs, {}", wrong.size(), expected.isCompared.size(), first);
 }
 
-class LeafTwins : public ::testing::TestWithParam<std::size_t> {};
+/// Leaves that read more words of the scene are made of others, which are tested in all scenes, and take a driver long.
+constexpr std::size_t maxWordsInAllScenes = 4;
 
-TEST_P(LeafTwins, HaveTheSameBits) {
-    const LeafProbe &probe = leafProbes()[GetParam()];
+/// The scenes that a leaf can tell apart.
+std::vector<const LeafScene *> scenesOf(const LeafProbe &probe) {
+    std::vector<const LeafScene *> scenes;
+    for (const LeafScene &scene : leafScenes())
+        if (std::ranges::all_of(scenes, [&](auto other) { return differs(probe.sceneWords, *other, scene); }))
+            scenes.push_back(&scene);
+    if (probe.sceneWords.size() > maxWordsInAllScenes && !isTestingAll())
+        scenes.resize(1);
+    return scenes;
+}
+
+/// The arithmetic of renders; of leaves that read no scene, the other one as well where a device has both.
+std::vector<gpu::Arithmetic> arithmeticsOf(const LeafProbe &probe) {
+    if (!isDivisionNative())
+        return {gpu::Arithmetic::Own};
+    if (probe.divides && (probe.sceneWords.empty() || isTestingAll()))
+        return {gpu::Arithmetic::Native, gpu::Arithmetic::Own};
+    return {gpu::Arithmetic::Native};
+}
+
+void expectTwin(std::size_t index) {
+    const LeafProbe &probe = leafProbes()[index];
     const std::size_t count = isTestingAll() ? probeInputCount : 4096;
-    std::size_t sceneCount = 0;
     std::vector<std::set<std::uint32_t>> values; // of each word of the results, two at most
-    for (const LeafScene &scene : leafScenes()) {
-        const bool isNew = std::all_of(leafScenes().data(), &scene, [&](const LeafScene &other) {
-            return differs(probe.sceneWords, other, scene);
-        });
-        if (!isNew)
-            continue;
-        ++sceneCount;
-        const Expected expected = expectedOf(probe, scene, count);
-        const auto comparedCount = static_cast<std::size_t>(std::ranges::count(expected.isCompared, true));
-        EXPECT_GE(comparedCount * 10, count * 8) << "subnormal numbers decide the others";
-        if (const auto row = shares.find(probe.name); row != shares.end() && sceneCount == 1) {
-            const double share = shareOfPositive(expected, row->second.word);
-            EXPECT_TRUE(share >= row->second.least && share <= row->second.most)
-                << "word " << row->second.word << " is positive for " << share << " of the inputs";
-        }
+    for (const LeafScene *scene : scenesOf(probe)) {
+        const Expected expected = expectedOf(probe, *scene, count);
+        EXPECT_GE(std::ranges::count(expected.isCompared, true), static_cast<std::ptrdiff_t>(count * 4 / 5))
+            << "subnormal numbers decide the others";
         values.resize(expected.outputWords);
         for (std::size_t i = 0; i < expected.results.size(); ++i)
             if (expected.isCompared[i / expected.outputWords] && values[i % expected.outputWords].size() < 2)
                 values[i % expected.outputWords].insert(expected.results[i].bits);
-        for (const gpu::Arithmetic arithmetic : {gpu::Arithmetic::Own, gpu::Arithmetic::Native}) {
-            // The arithmetic of renders, and where the device has a choice, of leaves without a scene both.
-            const bool isWanted = (arithmetic == gpu::Arithmetic::Native) == isDivisionNative();
-            const bool isChosenToo =
-                isDivisionNative() && probe.divides && (probe.sceneWords.empty() || isTestingAll());
-            if (!isWanted && !isChosenToo)
-                continue;
-            Probe kernel(static_cast<std::uint32_t>(GetParam()), expected.inputWords, expected.outputWords,
-                         arithmetic, &scene.view, count);
-            const std::vector<std::uint32_t> results = kernel.run(expected.inputs);
-            std::set<std::size_t> wrong; // inputs
-            std::string first;
-            for (std::size_t i = 0; i < results.size(); ++i) {
-                const std::size_t input = i / expected.outputWords;
-                if (!expected.isCompared[input] || isEqual(probe, expected.results[i], results[i]))
-                    continue;
-                if (wrong.empty())
-                    first = fmt::format(
-                        "input {} of seed {}:{}\nword {}: the host has{}, the device{}", input, Draw::seed,
-                        describeWords(&expected.inputs[input * expected.inputWords], expected.inputWords),
-                        i % expected.outputWords, describeWords(&expected.results[i].bits, 1),
-                        describeWords(&results[i], 1));
-                wrong.insert(input);
-            }
-            EXPECT_EQ(wrong.size(), 0u)
-                << "scene '" << scene.name << "', "
-                << (arithmetic == gpu::Arithmetic::Native ? "native" : "own") << " / and sqrt\n"
-                << first;
+        if (const auto row = shares.find(probe.name); row != shares.end() && scene == &leafScenes().front()) {
+            const double share = shareOfPositive(expected, row->second.word);
+            EXPECT_TRUE(share >= row->second.least && share <= row->second.most)
+                << "word " << row->second.word << " is positive for " << share << " of the inputs";
         }
+        for (const gpu::Arithmetic arithmetic : arithmeticsOf(probe))
+            EXPECT_EQ(difference(index, *scene, expected, arithmetic), "")
+                << "scene '" << scene->name << "', "
+                << (arithmetic == gpu::Arithmetic::Native ? "native" : "own") << " / and sqrt";
     }
     std::vector<std::size_t> constant;
     for (std::size_t word = 0; word < values.size(); ++word)
@@ -179,8 +187,63 @@ TEST_P(LeafTwins, HaveTheSameBits) {
         << "words of the results that are the same for all inputs";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LeafTwins, ::testing::Range(std::size_t{0}, leafProbes().size()),
-                         [](const auto &instance) { return nameOf(instance.param); });
+/// Indices of the leaves that read the scene, or of the others.
+std::vector<std::size_t> leavesThatRead(bool readTheScene) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < leafProbes().size(); ++i)
+        if (leafProbes()[i].sceneWords.empty() != readTheScene)
+            indices.push_back(i);
+    return indices;
+}
+
+std::string nameOf(const ::testing::TestParamInfo<std::size_t> &instance) {
+    const std::vector<LeafProbe> &probes = leafProbes();
+    const LeafProbe &probe = probes[instance.param];
+    const auto isOverload = [&](const LeafProbe &other) { return other.name == probe.name; };
+    const auto before = std::count_if(probes.data(), &probe, isOverload);
+    return std::filesystem::path(probe.file).stem().string() + "_" + probe.name +
+           (before > 0 ? fmt::format("_{}", before + 1) : "");
+}
+
+class LeafTwins : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(LeafTwins, HaveTheSameBits) { expectTwin(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(All, LeafTwins, ::testing::ValuesIn(leavesThatRead(false)), nameOf);
+
+class SceneLeafTwins : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(SceneLeafTwins, HaveTheSameBits) { expectTwin(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(All, SceneLeafTwins, ::testing::ValuesIn(leavesThatRead(true)), nameOf);
+
+// ---- No leaf is left out
+
+/// Names of the functions that a file and those that it includes define, by another reader than that of the build tools:
+/// lines that begin with a type, a name and a bracket.
+void addFunctions(const std::string &path, std::multiset<std::string> &names) {
+    static const std::regex function("(?:HYALITE_INLINE )?\\w+ (\\w+)\\(.*");
+    static const std::regex include("#include \"(shaders/.*)\"");
+    std::ifstream file(HYALITE_SOURCE_DIR "/" + path);
+    ASSERT_TRUE(file) << path;
+    std::smatch match;
+    for (std::string line; std::getline(file, line);)
+        if (std::regex_match(line, match, function))
+            names.insert(match[1]);
+        else if (std::regex_match(line, match, include))
+            addFunctions(match[1], names);
+}
+
+TEST(LeafProbes, AreThereForAllLeaves) {
+    std::multiset<std::string> functions;
+    addFunctions("shaders/layout/layout.h", functions);
+    addFunctions("shaders/leaves.glsl", functions);
+    std::multiset<std::string> probed;
+    for (const LeafProbe &probe : leafProbes())
+        probed.insert(probe.name);
+    EXPECT_EQ(probed, functions);
+    EXPECT_GT(functions.size(), 300u);
+}
 
 TEST(LeafInputs, AreDrawnByRowsThatParametersBear) {
     EXPECT_EQ(unusedInputRows(), std::vector<std::string>{});

@@ -1,3 +1,4 @@
+#include "host/packing/pixel_filter.h"
 #include "tests/fixtures/leaves.h"
 
 #include "tests/fixtures/geometry_fixture.h"
@@ -70,6 +71,19 @@ TEST(PanoramaCamera, ShowsAllDirections) {
     EXPECT_LT(glm::distance(at(0, 128), glm::dvec3(0, 0, 1)), 0.02) << "the left edge is behind";
     EXPECT_LT(glm::distance(at(77, 0), glm::dvec3(0, 1, 0)), 0.02) << "the top is up";
     EXPECT_LT(glm::distance(at(77, 255), glm::dvec3(0, -1, 0)), 0.02);
+}
+
+// A wide filter moves rays beyond the edges of a small image, around the whole panorama.
+TEST(PanoramaCamera, RaysHaveUnitLengthThroughAWideFilter) {
+    for (const CameraKind kind : {CameraKind::Panorama, CameraKind::Perspective}) {
+        PackedScene packed = testing::packed(sceneOf(kind, 3, 2));
+        packFilter(packed);
+        for (std::uint32_t sample = 0; sample < 4096; ++sample) {
+            const PrimaryRay<float> ray =
+                primaryRay<float>(packed, layout::samplerFiltered, {sample % 3, sample % 2}, sample);
+            EXPECT_NEAR(glm::length(ray.direction), 1.0f, 1e-6f) << "sample " << sample;
+        }
+    }
 }
 
 } // namespace
