@@ -25,7 +25,7 @@ struct LeafProbe {
     std::string name;
     std::vector<LeafVariable> parameters; ///< those that go in
     std::vector<std::string>
-        sceneWords{}; ///< what it reads of the scene: constants, `frame`, fetch functions
+        sceneWords{};     ///< what it reads of the scene: constants, `frame`, fetch functions
     bool divides = false; ///< or takes a root
     /// Calls the twin.
     void (*call)(const leaves::SceneView<float> &scene, WordReader &in, Words &out) = nullptr;

@@ -134,7 +134,7 @@ std::string difference(std::size_t index, const LeafScene &scene, const Expected
 }
 
 /// Leaves that read more words of the scene are made of others, which are tested in all scenes, and take a driver long.
-constexpr std::size_t maxWordsInAllScenes = 4;
+constexpr std::size_t maxWordsInAllScenes = 2;
 
 /// The scenes that a leaf can tell apart.
 std::vector<const LeafScene *> scenesOf(const LeafProbe &probe) {
