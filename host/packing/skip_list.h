@@ -1,4 +1,4 @@
-// The BVH as skip lists for traverse_skip.glsl, packed from the node pairs.
+// The BVH as skip lists for shaders/trace/skip_list.glsl, packed from the node pairs.
 #pragma once
 
 #include "host/packing/packed_scene.h"

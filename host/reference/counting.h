@@ -1,6 +1,6 @@
 // Counters for traversal: none, at no cost, or all counts of the kernel with a stack. A third one charges each ray
 // (ledger_counter.h): integrators say where rays arrive.
-// Twin: the counts in shaders/traversal/traverse_stack.glsl.
+// Twin: the counts in shaders/trace/stack.glsl.
 #pragma once
 
 #include "host/film/work_counts.h"

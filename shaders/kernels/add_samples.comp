@@ -1,5 +1,5 @@
 // Entry kernel: adds the finished samples of a tile to the film, in the order of their indices, up to the first that is
-// not finished (shaders/integrators/path_regeneration.glsl). An invocation does a pixel.
+// not finished (shaders/drive/regeneration.glsl). An invocation does a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,8 +10,8 @@ const bool hasBounces = true;
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/math/vector.glsl"
 #include "shaders/math/sums.glsl"
-#include "shaders/memory/lanes.glsl"
-#include "shaders/integrators/path_slots.glsl"
+#include "shaders/drive/lanes.glsl"
+#include "shaders/drive/slots.glsl"
 #include "shaders/integrators/alpha.glsl"
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmPixelBuffer { FilmPixel filmPixels[]; };

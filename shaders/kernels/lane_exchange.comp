@@ -15,7 +15,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
 const uint samplesInFlight = 8u;
 
-#include "shaders/memory/lanes.glsl"
+#include "shaders/drive/lanes.glsl"
 
 layout(set = 0, binding = 0, std430) writeonly buffer ResultBuffer { uint results[]; };
 

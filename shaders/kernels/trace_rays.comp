@@ -12,11 +12,11 @@ const bool hasBounces = false;
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/leaves.glsl"
-#include "shaders/traversal/preloaded.glsl"
-#include "shaders/memory/lanes.glsl"
-#include "shaders/integrators/path_slots.glsl"
-#include "shaders/traversal/any_hit.glsl"
-#include "shaders/traversal/traverse.glsl"
+#include "shaders/trace/preloaded.glsl"
+#include "shaders/drive/lanes.glsl"
+#include "shaders/drive/slots.glsl"
+#include "shaders/trace/any_hit.glsl"
+#include "shaders/trace/trace.glsl"
 
 layout(constant_id = constantIsAnyHit) const bool isAnyHit = false;
 
@@ -46,7 +46,7 @@ void storeHit(uint index, HitRecord hit) {
     hitRows[index] = uvec4(hit.primitive, floatBitsToUint(vec3(hit.distance, hit.u, hit.v)));
 }
 
-// The slot of a ray is its index; workgroups are in the same order as in path_slots.glsl.
+// The slot of a ray is its index; workgroups are in the same order as in shaders/drive/slots.glsl.
 void beginRay(uint slot) {
     uint lanes = blockOfWorkgroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
     slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);

@@ -656,7 +656,7 @@ const uint lightStateWords = 23u; // of a path that waits, beside three for each
 // as `radiance.x`.
 struct SampleRecord {
     vec3 radiance;
-    uint finished; // 0: it is not; else the counts of its rays (path_slots.glsl)
+    uint finished; // 0: it is not; else the counts of its rays (shaders/drive/slots.glsl)
 };
 
 const uint bitsPerCount = 7u; // at most maxPathDepth of each
@@ -815,7 +815,7 @@ const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
 const uint constantAnyHit = 26u;
 const uint constantTrianglePairs = 27u;    // skip lists: all triangles in turn, as so many pairs; 0: the tree
-const uint constantPathRegeneration = 28u; // slots go from sample to sample: path_regeneration.glsl
+const uint constantPathRegeneration = 28u; // slots go from sample to sample: regeneration.glsl
 const uint constantBroadcasts = 29u;       // subgroups of broadcastLanes exchange values by broadcasts
 const uint constantHasPairs = 30u;         // skip lists: leaves may be pairs of triangles
 const uint constantHasNormals = 31u;       // of corners of triangles

@@ -1,4 +1,4 @@
-// Slots that take samples in turn (shaders/integrators/path_regeneration.glsl) make the film and the counts of the
+// Slots that take samples in turn (shaders/drive/regeneration.glsl) make the film and the counts of the
 // reference, whatever the dispatches.
 #include "tests/fixtures/test_extent.h"
 #include "tests/fixtures/test_scene.h"

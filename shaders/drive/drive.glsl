@@ -45,7 +45,7 @@ void lightSurfaces() {
 }
 
 #if LANES_SHUFFLE
-#include "shaders/integrators/path_regeneration.glsl"
+#include "shaders/drive/regeneration.glsl"
 #endif
 
 void integrate() {

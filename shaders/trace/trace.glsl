@@ -1,7 +1,7 @@
 // The traversal of the tree: enterTree, stopTraversal, isTraversing, traverse.
 #if TRAVERSAL_SKIP_LIST
-#include "shaders/traversal/traverse_skip.glsl"
-#include "shaders/traversal/traverse_list.glsl"
+#include "shaders/trace/skip_list.glsl"
+#include "shaders/trace/list.glsl"
 
 void traverse(uint stage, const bool isShadow) {
     Candidate waiting[RAYS]; // never used
@@ -13,5 +13,5 @@ void traverse(uint stage, const bool isShadow) {
         traverseTree(stage, isShadow, waiting);
 }
 #else
-#include "shaders/traversal/traverse_stack.glsl"
+#include "shaders/trace/stack.glsl"
 #endif
