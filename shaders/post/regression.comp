@@ -5,15 +5,30 @@
 #include "shaders/post/passes.glsl"
 #include "shaders/post/moments.glsl"
 
+// The estimate of a bandwidth from both halves', whose means are `first` and `second`.
+void storeFiltered(int place, int bandwidth, float firstShare, vec3 first, vec3 second, vec3 firstFiltered,
+                   vec3 secondFiltered) {
+    float secondShare = 1.0 - firstShare;
+    vec3 estimate = firstFiltered * firstShare + secondFiltered * secondShare;
+    vec3 difference = firstFiltered - secondFiltered;
+    storeEstimate(place * estimateCount + bandwidth, estimate,
+                  relativeError(estimate, first, second, difference * difference * (firstShare * secondShare)));
+}
+
+// The noisy colour itself: the first term of its error is 0, and the variance is that of the whole.
+void storeNoisy(int place, vec3 noisy, vec3 second) {
+    vec3 squares = loadVector(splitTexels, place * splitRows + 3);
+    storeEstimate(place * estimateCount + 2, noisy, relativeError(noisy, noisy, second, squares * 0.5));
+}
+
 void main() {
     if (!beginPass())
         return;
     int place = placeOf(own);
     float firstShare = noisyNumber(place, 0);
-    float secondShare = 1.0 - firstShare;
     // The variance of a half's mean is that of all samples' over its share.
     float firstFactor = divide(1.0, firstShare);
-    float secondFactor = divide(1.0, secondShare);
+    float secondFactor = divide(1.0, 1.0 - firstShare);
     vec3 first = loadVector(splitTexels, place * splitRows);
     vec3 second = loadVector(splitTexels, place * splitRows + 1);
     vec3 variance = loadVector(varianceTexels, place);
@@ -62,19 +77,7 @@ void main() {
             add(narrowSecond, narrowWeight(byFirst), features, otherSecond);
             add(wideSecond, byFirst, features, otherSecond);
         }
-    vec3 halves[4];
-    halves[0] = solved(narrowFirst);
-    halves[1] = solved(wideFirst);
-    halves[2] = solved(narrowSecond);
-    halves[3] = solved(wideSecond);
-    [[unroll]] for (int i = 0; i < 2; ++i) {
-        vec3 estimate = halves[i] * firstShare + halves[2 + i] * secondShare;
-        vec3 difference = halves[i] - halves[2 + i];
-        storeEstimate(place * estimateCount + i, estimate,
-                      relativeError(estimate, first, second, difference * difference * (firstShare * secondShare)));
-    }
-    // The noisy colour itself: the first term of its error is 0, and the variance is that of the whole.
-    vec3 noisy = first * firstShare + second * secondShare;
-    vec3 squares = loadVector(splitTexels, place * splitRows + 3);
-    storeEstimate(place * estimateCount + 2, noisy, relativeError(noisy, noisy, second, squares * 0.5));
+    storeFiltered(place, 0, firstShare, first, second, solved(narrowFirst), solved(narrowSecond));
+    storeFiltered(place, 1, firstShare, first, second, solved(wideFirst), solved(wideSecond));
+    storeNoisy(place, first * firstShare + second * (1.0 - firstShare), second);
 }

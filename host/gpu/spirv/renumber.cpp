@@ -5,112 +5,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
 #include <string_view>
+#include <utility>
 
 namespace hyalite::core::gpu {
 
 namespace {
 
-/// The operands of an instruction, a letter each: i for an id, and l for a literal or a part of a text. The last one
-/// holds for all that follow. SPIR-V specification, section 3.42.
-std::string_view operandsOf(spv::Op opcode) {
-    switch (opcode) {
-    case spv::Op::OpCapability:
-    case spv::Op::OpExtension:
-    case spv::Op::OpMemoryModel:
-    case spv::Op::OpSource:
-    case spv::Op::OpModuleProcessed:
-    case spv::Op::OpSourceExtension:
-        return "l";
-    case spv::Op::OpExtInstImport:
-    case spv::Op::OpExecutionMode:
-    case spv::Op::OpName:
-    case spv::Op::OpMemberName:
-    case spv::Op::OpDecorate:
-    case spv::Op::OpMemberDecorate:
-    case spv::Op::OpTypeInt:
-    case spv::Op::OpTypeFloat:
-    case spv::Op::OpSelectionMerge:
-        return "il";
-    case spv::Op::OpTypeVector:
-    case spv::Op::OpTypeImage:
-    case spv::Op::OpConstant:
-    case spv::Op::OpSpecConstant:
-    case spv::Op::OpStore:
-    case spv::Op::OpLoopMerge:
-        return "iil";
-    case spv::Op::OpLoad:
-    case spv::Op::OpCompositeExtract:
-    case spv::Op::OpArrayLength:
-    case spv::Op::OpBranchConditional:
-        return "iiil";
-    case spv::Op::OpCompositeInsert:
-    case spv::Op::OpVectorShuffle:
-        return "iiiil";
-    case spv::Op::OpTypePointer:
-        return "ili";
-    case spv::Op::OpVariable:
-    case spv::Op::OpFunction:
-        return "iili";
-    case spv::Op::OpExtInst:
-    case spv::Op::OpImageWrite:
-    case spv::Op::OpGroupNonUniformIAdd:
-    case spv::Op::OpGroupNonUniformUMax:
-        return "iiili";
-    case spv::Op::OpImageRead:
-        return "iiiili";
-    case spv::Op::OpTypeVoid:
-    case spv::Op::OpTypeBool:
-    case spv::Op::OpTypeArray:
-    case spv::Op::OpTypeRuntimeArray:
-    case spv::Op::OpTypeStruct:
-    case spv::Op::OpTypeFunction:
-    case spv::Op::OpConstantTrue:
-    case spv::Op::OpConstantFalse:
-    case spv::Op::OpConstantComposite:
-    case spv::Op::OpSpecConstantTrue:
-    case spv::Op::OpSpecConstantFalse:
-    case spv::Op::OpSpecConstantComposite:
-    case spv::Op::OpConstantNull:
-    case spv::Op::OpUndef:
-    case spv::Op::OpFunctionParameter:
-    case spv::Op::OpFunctionEnd:
-    case spv::Op::OpFunctionCall:
-    case spv::Op::OpLabel:
-    case spv::Op::OpBranch:
-    case spv::Op::OpPhi:
-    case spv::Op::OpReturn:
-    case spv::Op::OpReturnValue:
-    case spv::Op::OpUnreachable:
-    case spv::Op::OpKill:
-    case spv::Op::OpAccessChain:
-    case spv::Op::OpInBoundsAccessChain:
-    case spv::Op::OpCopyObject:
-    case spv::Op::OpVectorExtractDynamic:
-    case spv::Op::OpVectorInsertDynamic:
-    case spv::Op::OpCompositeConstruct:
-    case spv::Op::OpSelect:
-    case spv::Op::OpVectorTimesScalar:
-    case spv::Op::OpControlBarrier:
-    case spv::Op::OpMemoryBarrier:
-    case spv::Op::OpGroupNonUniformElect:
-    case spv::Op::OpGroupNonUniformAny:
-    case spv::Op::OpGroupNonUniformAll:
-    case spv::Op::OpGroupNonUniformBallot:
-    case spv::Op::OpGroupNonUniformBroadcast:
-    case spv::Op::OpGroupNonUniformShuffle:
-    case spv::Op::OpGroupNonUniformShuffleXor:
-        return "i";
-    default:
-        break;
-    }
+/// The operands of instructions, a letter each: i for an id, and l for a literal or a part of a text. The last one holds
+/// for all that follow; empty: not known. SPIR-V specification, section 3.42.
+constexpr auto operandTable = [] {
+    using enum spv::Op;
+    std::array<std::string_view, 512> table{};
+    const auto set = [&](std::string_view letters, std::initializer_list<spv::Op> opcodes) {
+        for (const spv::Op opcode : opcodes)
+            table[static_cast<std::size_t>(opcode)] = letters;
+    };
+    set("l", {OpCapability, OpExtension, OpMemoryModel, OpSource, OpModuleProcessed, OpSourceExtension});
+    set("il", {OpExtInstImport, OpExecutionMode, OpName, OpMemberName, OpDecorate, OpMemberDecorate,
+               OpTypeInt, OpTypeFloat, OpSelectionMerge});
+    set("iil", {OpTypeVector, OpTypeImage, OpConstant, OpSpecConstant, OpStore, OpLoopMerge});
+    set("iiil", {OpLoad, OpCompositeExtract, OpArrayLength, OpBranchConditional});
+    set("iiiil", {OpCompositeInsert, OpVectorShuffle});
+    set("ili", {OpTypePointer});
+    set("iili", {OpVariable, OpFunction});
+    set("iiili", {OpExtInst, OpImageWrite, OpGroupNonUniformIAdd, OpGroupNonUniformUMax});
+    set("iiiili", {OpImageRead});
+    set("i", {OpTypeVoid, OpTypeBool, OpTypeArray, OpTypeRuntimeArray, OpTypeStruct, OpTypeFunction,
+              OpConstantTrue, OpConstantFalse, OpConstantComposite});
+    set("i", {OpSpecConstantTrue, OpSpecConstantFalse, OpSpecConstantComposite, OpConstantNull, OpUndef,
+              OpFunctionParameter, OpFunctionEnd, OpFunctionCall, OpLabel});
+    set("i", {OpBranch, OpPhi, OpReturn, OpReturnValue, OpUnreachable, OpKill, OpAccessChain,
+              OpInBoundsAccessChain, OpCopyObject});
+    set("i",
+        {OpVectorExtractDynamic, OpVectorInsertDynamic, OpCompositeConstruct, OpSelect, OpVectorTimesScalar,
+         OpControlBarrier, OpMemoryBarrier, OpGroupNonUniformElect, OpGroupNonUniformAny});
+    set("i", {OpGroupNonUniformAll, OpGroupNonUniformBallot, OpGroupNonUniformBroadcast,
+              OpGroupNonUniformShuffle, OpGroupNonUniformShuffleXor});
     // Conversions, arithmetic, comparisons, bits and atomics: blocks of the table that have ids only.
-    const auto isBetween = [&](spv::Op first, spv::Op last) { return first <= opcode && opcode <= last; };
-    if (isBetween(spv::Op::OpConvertFToU, spv::Op::OpUConvert) || opcode == spv::Op::OpBitcast ||
-        isBetween(spv::Op::OpSNegate, spv::Op::OpFMod) || isBetween(spv::Op::OpAny, spv::Op::OpBitCount) ||
-        isBetween(spv::Op::OpAtomicLoad, spv::Op::OpAtomicXor))
-        return "i";
-    return {};
+    for (const auto &[first, last] :
+         {std::pair(OpConvertFToU, OpUConvert), std::pair(OpBitcast, OpBitcast), std::pair(OpSNegate, OpFMod),
+          std::pair(OpAny, OpBitCount), std::pair(OpAtomicLoad, OpAtomicXor)})
+        for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i)
+            table[i] = "i";
+    return table;
+}();
+
+std::string_view operandsOf(spv::Op opcode) {
+    const auto i = static_cast<std::size_t>(opcode);
+    return i < operandTable.size() ? operandTable[i] : std::string_view();
 }
 
 class Numbers {
@@ -186,7 +132,7 @@ std::vector<std::uint32_t> renumber(std::span<const std::uint32_t> spirv) {
         const std::string_view letters = operandsOf(instruction.opcode());
         if (letters.empty())
             throw std::invalid_argument(
-                fmt::format("operands of the SPIR-V instruction {} are unknown: tell operandsOf() in "
+                fmt::format("operands of the SPIR-V instruction {} are unknown: tell operandTable in "
                             "host/gpu/spirv/renumber.cpp",
                             static_cast<int>(instruction.opcode())));
         for (std::size_t i = 0; i < operands.size(); ++i)
