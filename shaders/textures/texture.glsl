@@ -158,10 +158,10 @@ vec3 lookUpTexture(uint row, SurfaceUv at) {
     return mixtureOf(above, below, down.share);
 }
 
-uint textureRow(uint textures, uint slot) { return textures + rowsPerTexture * slot; }
+uint textureRow(uint textures, uint parameter) { return textures + rowsPerTexture * parameter; }
 
-// Whether a material with textures has one in the slot.
-bool hasTexture(uint textures, uint slot) { return textureWords(textureRow(textures, slot)).y != 0u; }
+// Whether a material with textures has one for the parameter (slot...).
+bool hasTexture(uint textures, uint parameter) { return textureWords(textureRow(textures, parameter)).y != 0u; }
 
 // Lookup of one number: a channel, times the factor of the texture.
 float lookUpNumber(uint row, SurfaceUv at) {
@@ -212,42 +212,44 @@ MaterialRecord anisotropicMaterial(MaterialRecord material, vec3 texel) {
     return material;
 }
 
-bool isTextured(uint textures, uint slot) { return (texturing & (1u << slot)) != 0u && hasTexture(textures, slot); }
+bool isTextured(uint textures, uint parameter) {
+    return (texturing & (1u << parameter)) != 0u && hasTexture(textures, parameter);
+}
 
-// Whether a lookup in `slot` is one in `other`, which scenes without such textures know beforehand.
-bool isSlot(uint slot, uint other) { return (texturing & (1u << other)) != 0u && slot == other; }
+// Whether a lookup in `parameter` is one in `other`, which scenes without such textures know beforehand.
+bool isSlot(uint parameter, uint other) { return (texturing & (1u << other)) != 0u && parameter == other; }
 
-// The material with the texture of a slot that materials with lobes have; `factor` is that of the texture.
-MaterialRecord wornMaterial(MaterialRecord material, uint slot, vec3 texel, float factor) {
-    if (isSlot(slot, slotRoughness)) {
+// The material with the texture of a parameter that materials with lobes have; `factor` is that of the texture.
+MaterialRecord wornMaterial(MaterialRecord material, uint parameter, vec3 texel, float factor) {
+    if (isSlot(parameter, slotRoughness)) {
         float roughness = texel.x * factor;
         bool isGlossiness =
             (scattering & scattersAtGltf) != 0u && (material.kindAndSides & materialIsSpecularGlossy) != 0u;
         material.alpha = alphaOf(isGlossiness ? 1.0 - roughness : roughness);
     }
-    if (isSlot(slot, slotMetallic))
+    if (isSlot(parameter, slotMetallic))
         material.metallic = texel.x * factor;
-    if (isSlot(slot, slotTransmission))
+    if (isSlot(parameter, slotTransmission))
         material.transmission *= texel.x;
-    if (isSlot(slot, slotClearcoat))
+    if (isSlot(parameter, slotClearcoat))
         material.clearcoat *= texel.x;
-    if (isSlot(slot, slotClearcoatRoughness))
+    if (isSlot(parameter, slotClearcoatRoughness))
         material.clearcoatAlpha = alphaOf(texel.x * factor);
-    if (isSlot(slot, slotDielectricWeight))
+    if (isSlot(parameter, slotDielectricWeight))
         material.dielectricWeight *= texel.x;
-    if (isSlot(slot, slotDielectricColour))
+    if (isSlot(parameter, slotDielectricColour))
         material.dielectricColour *= texel;
-    if (isSlot(slot, slotSheenColour))
+    if (isSlot(parameter, slotSheenColour))
         material.sheenColour *= texel;
-    if (isSlot(slot, slotSheenRoughness))
+    if (isSlot(parameter, slotSheenRoughness))
         material.sheenAlpha = sheenAlphaOf(texel.x * factor);
-    if (isSlot(slot, slotAnisotropy))
+    if (isSlot(parameter, slotAnisotropy))
         return anisotropicMaterial(material, texel);
     return material;
 }
 
 // A material that has textures, with those of `slots` applied at `at`. Those that materials with lobes have are looked
-// up in a loop: inlined for each slot, lookups would be most of the kernel.
+// up in a loop: inlined for each parameter, lookups would be most of the kernel.
 MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv at) {
     uint textures = material.textures;
     if ((slots & texturesBaseColour) != 0u && isTextured(textures, slotBaseColour))
@@ -255,10 +257,10 @@ MaterialRecord texturedMaterial(MaterialRecord material, uint slots, SurfaceUv a
     if ((slots & texturesEmission) != 0u && isTextured(textures, slotEmission))
         material.emission *= lookUpTexture(textureRow(textures, slotEmission), at);
     for (uint left = slots & texturing & texturesOfLobes; left != 0u; left &= left - 1u) {
-        uint slot = uint(findLSB(left));
-        uint row = textureRow(textures, slot);
-        if (hasTexture(textures, slot))
-            material = wornMaterial(material, slot, lookUpTexture(row, at), uintBitsToFloat(textureWords(row).w));
+        uint parameter = uint(findLSB(left));
+        uint row = textureRow(textures, parameter);
+        if (hasTexture(textures, parameter))
+            material = wornMaterial(material, parameter, lookUpTexture(row, at), uintBitsToFloat(textureWords(row).w));
     }
     return material;
 }
