@@ -1,87 +1,207 @@
-// The loop of all integrators: samples begin, their rays are traced, surfaces are lit, and rounds go into the film.
+// The loop of all kernels that render: samples begin, their requests are answered, and rounds go into the film.
 //
-// All slots of a subgroup that are in the same stage do its work together; a stage skips the slots that are in another
-// one. An integrator defines what happens at each stage:
+// A slot works on every `samplesInFlight`-th sample of one pixel; neighbouring slots take the samples in between. Rays
+// of one pixel are coherent. All slots of a subgroup that are in the same stage do its work together: on a CPU, a
+// subgroup pays for everything that any of its lanes does. An integrator defines begin(), and says by three constants
+// what its paths do: `hasChains`, after a nearest hit they may ask for another one right away; `sendsShadowRays`; and
+// `goesOn`, after these they may ask for more.
 
-void beginSample(uint slot);  // stageNextSample: the primary ray
-void shadeHit(uint slot);     // stageClosest: the nearest hit is known
-void sampleDirectLight(uint slot);   // stageNextLight: on a surface, choose a light
-void addLight(uint slot);     // stageShadow: the shadow ray has arrived, or was stopped
-void advancePaths();          // runs samples to their end, or until the budget is spent; regenerating: one pass
+#include "shaders/drive/slots.glsl"
+#include "shaders/drive/film.glsl"
+#include "shaders/drive/waiting_paths.glsl"
 
 // The work of a pass without its traversals, in traversal steps, by the times of both on lavapipe.
 const uint workPerPass = 32u + sphereCount;
 
-// Traces the rays that are ready, and shades their hits.
-void traceRays() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNewRay)
-            beginClosest(slot);
-    if (hasTriangles)
-        traverse(stageClosest, false);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageClosest && !isTraversing(slot)) {
-            if (originsMeetGlass() && path[slot].rayDepth == 0u)
-                passOnWay(slot);
-            else
-                shadeHit(slot);
-        }
+void take(uint slot) {
+    stage[slot] = request.kind;
+    traversal[slot].ray = request.ray;
+}
+
+// Slots without a sample add nothing to the film.
+void beginSample(uint slot) {
+    path.rays = uvec4(0u);
+    path.bounces = 0u;
+    traversal[slot].work = vec3(0.0);
+    begin();
+    take(slot);
+    bool hasSample = path.key.sampleIndex < dispatch.sampleEnd;
+    stage[slot] = hasSample ? stage[slot] : stageSampleDone;
+    path.rays.x = hasSample ? path.rays.x : 0u;
+}
+
+Answer answerFor(uint slot) {
+    request.ray = traversal[slot].ray;
+    return Answer(traversal[slot].hit, traversal[slot].isDimmed);
+}
+
+void answerNearest(uint slot) {
+    nextAfterNearest(answerFor(slot));
+    take(slot);
+}
+
+void answerTurn(uint slot) {
+    nextAtVertex(answerFor(slot));
+    take(slot);
+}
+
+void answerVisibility(uint slot) {
+    nextAfterVisibility(answerFor(slot));
+    take(slot);
+}
+
+RayKey keyOfRay(uint isVisibility) {
+    return RayKey(path.key.pixel, path.key.sampleIndex, 2u * path.key.depth + isVisibility);
+}
+
+#if SPLITS_RAYS
+void resumePath(uint slot) {
+    resume();
+    take(slot);
+}
+#endif
+
+void beginPath(uint slot) {
+#if SPLITS_RAYS
+    if (stage[slot] == stageResume)
+        resumePath(slot);
+#endif
+    if (stage[slot] != stageNewRay)
+        return;
+    traceEvent(traceRayOrigin, 0u, traversal[slot].ray.origin);
+    traceEvent(traceRayDirection, 0u, traversal[slot].ray.direction);
+    beginNearest(slot);
+    stage[slot] = stageNearest;
+}
+
+bool isThere(uint slot, uint traced) { return stage[slot] == traced && !isTraversing(slot); }
+
+// Traces the rays of all slots in a stage.
+void trace(const uint traced, const bool isVisibility) {
+    if (!hasTriangles)
+        return;
+    bool takesPart[RAYS];
+    EACH_RAY(slot, takesPart[slot] = stage[slot] == traced;)
+    EACH_PATH(slot, traversal[slot].key = keyOfRay(isVisibility ? 1u : 0u);)
+    advance(takesPart, isVisibility);
+}
+
+void endStage() {
     stepsTaken += 1u;
     passWork += workPerPass;
 }
 
-// Lights the surfaces that paths are on.
-void lightSurfaces() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageNextLight)
-            sampleDirectLight(slot);
-    if (hasTriangles)
-        traverse(stageShadow, true);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (path[slot].stage == stageShadow && !isTraversing(slot))
-            addLight(slot);
-    stepsTaken += 1u;
-    passWork += workPerPass;
+// Traces the rays whose nearest hits are wanted.
+void followPaths() {
+    EACH_PATH(slot, beginPath(slot);)
+    trace(stageNearest, false);
+    EACH_PATH(slot, if (isThere(slot, stageNearest)) answerNearest(slot);)
+    endStage();
+}
+
+void takeTurn(uint slot) {
+    if (stage[slot] == stageTurn)
+        answerTurn(slot);
+    if (stage[slot] != stageNewShadow)
+        return;
+    beginVisibility(slot);
+    stage[slot] = stageShadow;
+}
+
+// Gives paths that are at a vertex their turn, and traces their shadow rays.
+void lightVertices() {
+    EACH_PATH(slot, takeTurn(slot);)
+    trace(stageShadow, true);
+    EACH_PATH(slot, if (isThere(slot, stageShadow)) answerVisibility(slot);)
+    endStage();
+}
+
+bool isAnyUpTo(uint last) {
+    bool isAny = false;
+    EACH_RAY(slot, isAny = isAny || stage[slot] <= last;)
+    return isAny;
+}
+
+// Runs samples to their end, or until no steps are left; regenerating: one pass.
+void advancePaths() {
+    do {
+        do
+            followPaths();
+        while (hasChains && !regeneratesPaths && isAnyUpTo(stageNearest) && hasStepsLeft());
+        if (sendsShadowRays)
+            lightVertices();
+        stepsTaken += 1u + stepsOfTurn();
+    } while (goesOn && !regeneratesPaths && isAnyUpTo(stageShadow) && hasStepsLeft());
+}
+
+// A slot's own samples, whose film it shares with those of its pixel.
+
+void loadPixel(uint slot) {
+    placeSlot(slot);
+    placePath(slot);
+    loadFilm(slot);
+    loadLightSums(slot);
+    loadSlot(slot, filmSampleCount[slot]);
+    loadLight(slot);
+}
+
+void storePixel(uint slot) {
+    storeFilm(slot);
+    storeLightSums(slot);
+    storeSlot(slot);
+    storeLight(slot);
 }
 
 #if LANES_SHUFFLE
 #include "shaders/drive/regeneration.glsl"
+#else
+void beginRegeneration(uint slot) {}
+bool findSample(uint slot) { return false; }
+void endPass(uint slot) {}
 #endif
+
+void load(uint slot) {
+    if (regeneratesPaths)
+        beginRegeneration(slot);
+    else
+        loadPixel(slot);
+}
+
+void beginNext(uint slot) {
+    bool isNext = regeneratesPaths ? findSample(slot) : stage[slot] == stageNextSample;
+    if (isNext)
+        beginSample(slot);
+}
+
+void endRound(uint slot) {
+    if (regeneratesPaths)
+        endPass(slot);
+    else
+        addRoundToFilm(slot);
+}
 
 void integrate() {
     loadConstants();
     preload();
-#if LANES_SHUFFLE
-    if (regeneratesPaths) {
-        integrateRegenerating();
-        return;
-    }
-#endif
     shareWork();
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        placeSlot(slot);
-        loadFilm(slot);
-        loadLightSums(slot);
-        loadSlot(slot, filmSampleCount[slot]);
-        loadLight(slot);
-    }
+    EACH_PATH(slot, load(slot);)
     // The same for all lanes that share a pixel.
     bool isOutOfSteps = false;
     do {
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            if (path[slot].stage == stageNextSample)
-                beginSample(slot);
+        EACH_PATH(slot, beginNext(slot);)
         advancePaths();
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            addRoundToFilm(slot);
-        stepsTaken += 1u;
-        isOutOfSteps = !isTrueForAllOfPixel(stepsTaken < dispatch.stepBudget);
-    } while (isUnfinished() && !isOutOfSteps);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        storeFilm(slot);
-        storeLightSums(slot);
-        storeSlot(slot);
-        storeLight(slot);
+        if (regeneratesPaths)
+            stepsTaken += 1u;
+        EACH_PATH(slot, endRound(slot);)
+        if (!regeneratesPaths) {
+            stepsTaken += 1u;
+            isOutOfSteps = !isTrueForAllOfPixel(hasStepsLeft());
+        }
+    } while (isAnyUpTo(stageSampleDone) && !isOutOfSteps);
+    if (regeneratesPaths) {
+        addWork(unfinishedCount);
+        return;
     }
+    EACH_PATH(slot, storePixel(slot);)
     addProgress();
 }

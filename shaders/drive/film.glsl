@@ -49,7 +49,7 @@ void tallySample(uint slot, uint number, bool takesPart) {
 // Counts the samples in flight, in their order; the slot of the first one does it for all of them.
 void tallySamples(uint slot) {
     uint numbers[maxSamplesInFlight];
-    exchangeInPixel(uint(path[slot].sampleRadiance.x), numbers);
+    exchangeInPixel(uint(path.radiance.x), numbers);
     [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane)
         tallySample(slot, numbers[lane], isSlotUsed[slot] && sampleLane(slot) == 0u);
 }
@@ -125,7 +125,7 @@ void storeLightSums(uint slot) {
 // Adds the light of the samples in flight: each slot those sums that it keeps.
 void addLightSums(uint slot) {
     vec3 planes[lightPlanesOrOne];
-    planesOfSample(slot, planes);
+    planesOfSample(planes);
     [[unroll]] for (uint first = 0u; first < lightSums; first += samplesInFlight) {
         uint own[maxSamplesInFlight];
         [[unroll]] for (uint lane = 0u; lane < samplesInFlight; ++lane) {
@@ -150,11 +150,12 @@ void addSamples(uint slot) {
     uint green[maxSamplesInFlight];
     uint blue[maxSamplesInFlight];
     uint clear[maxSamplesInFlight];
-    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.x), red);
-    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.y), green);
-    exchangeInPixel(floatBitsToUint(path[slot].sampleRadiance.z), blue);
+    vec3 colour = showsCost ? traversal[slot].work : path.radiance;
+    exchangeInPixel(floatBitsToUint(colour.x), red);
+    exchangeInPixel(floatBitsToUint(colour.y), green);
+    exchangeInPixel(floatBitsToUint(colour.z), blue);
     if (hasAlpha)
-        exchangeInPixel(floatBitsToUint(sampleTransparency(slot)), clear);
+        exchangeInPixel(floatBitsToUint(sampleTransparency()), clear);
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint channel = number & 3u;
@@ -171,19 +172,19 @@ void addSamples(uint slot) {
 
 // Ends the round if the samples of all slots of the pixel are finished.
 void addRoundToFilm(uint slot) {
-    if (!isTrueForAllOfPixel(path[slot].stage == stageSampleDone))
+    if (!isTrueForAllOfPixel(stage[slot] == stageSampleDone))
         return;
-    uint first = path[slot].sampleIndex - sampleLane(slot);
+    uint first = path.key.sampleIndex - sampleLane(slot);
     addSamples(slot);
     if (hasLightPlanes)
         addLightSums(slot);
     filmSampleCount[slot] += min(samplesInFlight, dispatch.sampleEnd - first);
-    if (path[slot].sampleIndex < dispatch.sampleEnd)
+    if (path.key.sampleIndex < dispatch.sampleEnd)
         finishedSampleCount += 1u;
-    finishedRayCounts += rayCounts[slot];
-    rayCounts[slot] = uvec4(0u);
-    finishedBounceCount += bounceCounts[slot];
-    bounceCounts[slot] = 0u;
-    path[slot].sampleIndex += samplesInFlight;
-    path[slot].stage = first + samplesInFlight < dispatch.sampleEnd ? stageNextSample : stageDone;
+    finishedRayCounts += path.rays;
+    path.rays = uvec4(0u);
+    finishedBounceCount += path.bounces;
+    path.bounces = 0u;
+    path.key.sampleIndex += samplesInFlight;
+    stage[slot] = first + samplesInFlight < dispatch.sampleEnd ? stageNextSample : stageDone;
 }

@@ -12,73 +12,54 @@ uint nextPlace[RAYS];
 uint endOfPlaces[RAYS];
 
 void beginRegeneration(uint slot) {
+    stopTraversal(slot);
+    stage[slot] = stageNextSample;
     uint subgroup = (blockOfWorkgroup() * gl_NumSubgroups + gl_SubgroupID) * RAYS + slot;
     uint first = subgroup * gl_SubgroupSize * dispatch.samplesPerSlot;
     nextPlace[slot] = first + gl_SubgroupInvocationID;
-    endOfPlaces[slot] = min(first + gl_SubgroupSize * dispatch.samplesPerSlot, slotCount());
+    endOfPlaces[slot] = min(first + gl_SubgroupSize * dispatch.samplesPerSlot, pathCount());
 }
 
 // Whether the sample of a place is still to be done.
 bool isOpen(uint slot, uint place) {
     placeSlotAt(slot, place);
+    placePath(slot);
     if (!isSlotUsed[slot] || samples[place * recordsPerSample].finished != 0u)
         return false;
     uint first = dispatch.sampleBegin + filmWords[filmIndex[slot] * filmPixelWords + filmSampleCountWord];
-    path[slot].sampleIndex = first + (sampleLane(slot) - first & samplesInFlight - 1u);
-    return path[slot].sampleIndex < dispatch.sampleEnd;
+    path.key.sampleIndex = first + (sampleLane(slot) - first & samplesInFlight - 1u);
+    return path.key.sampleIndex < dispatch.sampleEnd;
 }
 
-// Begins the next sample of the slot, or ends its work.
-void takeTurn(uint slot) {
-    if (path[slot].stage != stageNextSample)
-        return;
+// Finds the next sample of a slot that has none, or ends its work. Returns whether it has found one.
+bool findSample(uint slot) {
+    if (stage[slot] != stageNextSample)
+        return false;
     bool isFound = false;
     while (!isFound && nextPlace[slot] < endOfPlaces[slot]) {
         isFound = isOpen(slot, nextPlace[slot]);
         nextPlace[slot] += gl_SubgroupSize;
         stepsTaken += 1u;
     }
-    path[slot].stage = stageDone;
-    if (!isFound)
-        return;
-    rayCounts[slot] = uvec4(0u);
-    bounceCounts[slot] = 0u;
-    beginSample(slot);
+    stage[slot] = stageDone;
+    return isFound;
 }
 
 // Keeps a finished sample.
-void endTurn(uint slot) {
+void keepSample(uint slot) {
     uint record = slotIndex[slot] * recordsPerSample;
-    samples[record] = SampleRecord(path[slot].sampleRadiance, packCounts(rayCounts[slot].yzw, bounceCounts[slot]));
+    samples[record] = SampleRecord(path.radiance, packCounts(path.rays.yzw, path.bounces));
     if (hasAlpha)
-        samples[record + 1u].radiance.x = sampleTransparency(slot);
-    path[slot].stage = stageNextSample;
+        samples[record + 1u].radiance.x = sampleTransparency();
+    stage[slot] = stageNextSample;
 }
 
-void integrateRegenerating() {
-    shareWork();
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        beginRegeneration(slot);
-        stopTraversal(slot);
-        path[slot].stage = stageNextSample;
-    }
-    uint unfinished = 0u;
-    bool isRunning;
-    do {
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            takeTurn(slot);
-        advancePaths();
-        stepsTaken += 1u;
-        isRunning = false;
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (path[slot].stage == stageSampleDone)
-                endTurn(slot);
-            bool isIdle = path[slot].stage == stageNextSample && nextPlace[slot] >= endOfPlaces[slot];
-            bool isLate = path[slot].stage != stageDone && !isIdle && stepsTaken >= dispatch.stepBudget;
-            unfinished += isLate ? 1u : 0u;
-            path[slot].stage = isLate || isIdle ? stageDone : path[slot].stage;
-            isRunning = isRunning || path[slot].stage != stageDone;
-        }
-    } while (isRunning);
-    addWork(unfinished);
+// After a pass: keeps what is finished, and drops what is not where no steps are left.
+void endPass(uint slot) {
+    if (stage[slot] == stageSampleDone)
+        keepSample(slot);
+    bool isIdle = stage[slot] == stageNextSample && nextPlace[slot] >= endOfPlaces[slot];
+    bool isLate = stage[slot] != stageDone && !isIdle && !hasStepsLeft();
+    unfinishedCount += isLate ? 1u : 0u;
+    stage[slot] = isLate || isIdle ? stageDone : stage[slot];
 }

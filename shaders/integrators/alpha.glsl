@@ -5,24 +5,18 @@
 //
 // The transparency of a sample is negative while its path sees through to the background.
 
-const bool hasAlpha = alphaKind != alphaOfNothing;
-const uint recordsPerSample = hasAlpha ? 2u : 1u; // SampleRecord
-
-void beginTransparency(uint slot) {
+void beginTransparency() {
     if (hasAlpha)
-        path[slot].transparency = -1.0;
+        path.transparency = -1.0;
 }
 
-bool seesThrough(uint slot) { return hasAlpha && path[slot].transparency < 0.0; }
+bool seesThrough() { return hasAlpha && path.transparency < 0.0; }
 
 // The path has met what is not transparent: it goes on as if there were no alpha.
-void endSeeingThrough(uint slot) {
-    if (seesThrough(slot))
-        path[slot].transparency = 0.0;
+void endSeeingThrough() {
+    if (seesThrough())
+        path.transparency = 0.0;
 }
 
-// The path has arrived where the picture is transparent.
-void becomeTransparent(uint slot, vec3 throughput) { path[slot].transparency = meanComponent(throughput); }
-
 // Of a finished sample.
-float sampleTransparency(uint slot) { return hasAlpha ? greater(path[slot].transparency, 0.0) : 0.0; }
+float sampleTransparency() { return hasAlpha ? greater(path.transparency, 0.0) : 0.0; }

@@ -5,38 +5,40 @@
 bool originsMeetGlass() { return (camera & cameraOriginsMeetGlass) != 0u; } // only where there is glass
 
 // Goes on from a point of the way, or starts the primary ray at its end.
-void goToOrigin(uint slot, vec3 from, uint excluded) {
-    PrimaryRay ray = primaryRay(imagePixel[slot], path[slot].sampleIndex);
+void goToOrigin(vec3 from, uint excluded) {
+    PrimaryRay ray = primaryRay(path.key.pixel, path.key.sampleIndex);
     WayToOrigin way = wayToOrigin(from, ray.origin);
+    path.key.depth = way.distance > 0.0 ? 0u : 1u;
+    path.medium = way.distance > 0.0 ? noMaterial : mediumAround(path.mediaInside);
     if (way.distance > 0.0)
-        startRay(slot, from, way.direction, excluded, 0u, noMaterial);
+        askNearest(from, way.direction, excluded);
     else
-        startRay(slot, ray.origin, ray.direction, noPrimitive, 1u, mediumAround(path[slot].mediaInside));
+        askNearest(ray.origin, ray.direction, noPrimitive);
 }
 
-// Starts the next sample in the glass that is around its origin, or ends the pixel.
-void beginInMedia(uint slot) {
-    sendPrimaryRay(slot);
-    path[slot].mediaInside = hasDielectric ? frame.mediaAtEye : 0u;
-    if (originsMeetGlass() && path[slot].stage == stageNewRay)
-        goToOrigin(slot, frame.eye, noPrimitive);
+// Begins a sample in the glass that is around its origin.
+void beginInMedia() {
+    askPrimary();
+    path.mediaInside = hasDielectric ? frame.mediaAtEye : 0u;
+    if (originsMeetGlass())
+        goToOrigin(frame.eye, noPrimitive);
 }
 
-// Stage: the nearest surface on the way to the origin is known.
-void passOnWay(uint slot) {
-    vec3 origin = primaryRay(imagePixel[slot], path[slot].sampleIndex).origin;
-    bool isThere = path[slot].hitPrimitive == noPrimitive ||
-                   path[slot].rayLength >= wayToOrigin(path[slot].rayOrigin, origin).distance;
+// The nearest surface on the way to the origin is known.
+void passOnWay(const Answer answer) {
+    vec3 origin = primaryRay(path.key.pixel, path.key.sampleIndex).origin;
+    bool isThere = answer.hit.primitive == noPrimitive ||
+                   answer.hit.distance >= wayToOrigin(request.ray.origin, origin).distance;
     if (isThere) {
-        goToOrigin(slot, origin, noPrimitive);
+        goToOrigin(origin, noPrimitive);
         return;
     }
     uint materialIndex;
-    Surface surface = surfaceHit(slot, materialIndex);
-    vec3 direction = path[slot].rayDirection;
+    vec3 direction = request.ray.direction;
+    Surface surface = hitSurface(answer.hit, request.ray.origin, direction, materialIndex);
     if (isGlass(fetchMaterial(materialIndex)))
-        path[slot].mediaInside = dotProduct(direction, surface.geometricNormal) < 0.0
-                                     ? enterMedium(path[slot].mediaInside, materialIndex)
-                                     : leaveMedium(path[slot].mediaInside, materialIndex);
-    goToOrigin(slot, offsetRayOrigin(surface, direction), path[slot].hitPrimitive);
+        path.mediaInside = dotProduct(direction, surface.geometricNormal) < 0.0
+                               ? enterMedium(path.mediaInside, materialIndex)
+                               : leaveMedium(path.mediaInside, materialIndex);
+    goToOrigin(offsetRayOrigin(surface, direction), answer.hit.primitive);
 }

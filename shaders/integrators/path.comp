@@ -14,279 +14,294 @@ const bool lightPassesGlass = false;
 const bool raysHaveTargets = hasEmission;
 const bool hasBounces = true;
 const bool carriesRadiance = true;
+const bool hasChains = hasSpecular;
+const bool sendsShadowRays = true;
+const bool goesOn = true;
 
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/specular.glsl"
 
 const uint firstRouletteDepth = 4u; // segments before Russian roulette begins
 
-vec2 lobeChoice(uint slot) {
-    uint number = lobePair(path[slot].rayDepth);
-    return unitFloats(sampleBits(pairKeys(imagePixel[slot], frame.seed, number), path[slot].sampleIndex));
+vec2 lobeChoice() {
+    return unitFloats(sampleBits(pairKeys(path.key.pixel, frame.seed, lobePair(path.key.depth)), path.key.sampleIndex));
 }
 
-void beginSample(uint slot) {
-    beginInMedia(slot);
-    beginTransparency(slot);
-    beginLight(slot);
-    path[slot].scatterPdf = 0.0;
+void begin() {
+    beginTransparency();
+    beginLight();
+    path.scatterPdf = 0.0;
+    beginInMedia();
 }
-
-void endPath(uint slot) { path[slot].stage = stageSampleDone; }
 
 // Returns what the sample has gained.
-vec3 addRadiance(uint slot, vec3 weight, vec3 radiance) {
+vec3 addRadiance(vec3 weight, vec3 radiance) {
     vec3 added = withoutTiny(weight * radiance);
-    if (path[slot].rayDepth > 1u)
+    if (path.key.depth > 1u)
         added = lesser(added, vec3(frame.radianceLimit));
-    if (!showsCost)
-        path[slot].sampleRadiance = path[slot].sampleRadiance + added;
-    traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
+    path.radiance = path.radiance + added;
+    traceEvent(traceRadiance, 0u, path.radiance);
     return added;
 }
 
-// The surface that the path was on before its ray, as the light tree sees it.
-LitPoint litPoint(uint slot) {
-    bool isTransmitting =
-        scattering != 0u && isLitFromBehind(fetchMaterial(path[slot].surfaceMaterial & ~seenFromBehind));
-    return LitPoint(path[slot].surfacePosition, path[slot].surfaceNormal, isTransmitting);
+// The vertex that the path was at before its ray, as the light tree sees it.
+LitPoint litPoint(const Vertex vertex) {
+    bool isTransmitting = scattering != 0u && isLitFromBehind(fetchMaterial(vertex.material & ~seenFromBehind));
+    return LitPoint(vertex.surface.position, vertex.surface.normal, isTransmitting);
 }
 
 // Emission of the surface at the hit, with the multiple importance weight against a light sample of the same point.
-void addEmission(uint slot, Surface surface, MaterialRecord material) {
-    vec3 direction = path[slot].rayDirection;
+void addEmission(const Ray ray, const Hit hit, const Surface surface, const MaterialRecord material) {
+    vec3 direction = ray.direction;
     float facing = -dotProduct(direction, surface.geometricNormal);
     float cosine = emitsBehind(material) ? abs(facing) : facing;
     if (material.emitterPdf <= 0.0 || cosine <= 0.0)
         return;
     float weight = 1.0;
-    if (path[slot].scatterPdf > 0.0) {
+    if (path.scatterPdf > 0.0) {
         float pdf;
         // Every emitting sphere is an emitter, unless its radius is 0, and then nothing hits it.
-        if ((lighting & lightsBySpheres) == 0u || isTriangle(path[slot].hitPrimitive)) {
+        if ((lighting & lightsBySpheres) == 0u || isTriangle(hit.primitive)) {
             float areaPdf = material.emitterPdf;
             if (hasLightTree)
-                areaPdf = pdfOfEmitter(fetchTriangle(path[slot].hitRecord).flags >> triangleEmitterShift, areaPdf,
-                                       litPoint(slot));
-            pdf = solidAnglePdf(areaPdf, path[slot].rayLength, cosine);
+                areaPdf = pdfOfEmitter(fetchTriangle(hit.record).flags >> triangleEmitterShift, areaPdf,
+                                       litPoint(path.vertex));
+            pdf = solidAnglePdf(areaPdf, hit.distance, cosine);
         } else {
-            SphereRecord sphere = fetchSphere(path[slot].hitRecord);
-            float areaPdf = pdfOfEmitter(sphere.emitter, material.emitterPdf, litPoint(slot));
-            pdf = pdfSphereLight(path[slot].rayOrigin, direction, path[slot].rayLength, sphere.centre, sphere.radius,
-                                         surface.normal * normalSignOf(sphere), areaPdf);
+            SphereRecord sphere = fetchSphere(hit.record);
+            float areaPdf = pdfOfEmitter(sphere.emitter, material.emitterPdf, litPoint(path.vertex));
+            pdf = pdfSphereLight(ray.origin, direction, hit.distance, sphere.centre, sphere.radius,
+                                 surface.normal * normalSignOf(sphere), areaPdf);
         }
-        weight = powerHeuristic(path[slot].scatterPdf, pdf);
+        weight = powerHeuristic(path.scatterPdf, pdf);
     }
-    vec3 added = addRadiance(slot, path[slot].throughput * weight, material.emission);
-    meetLight(slot, added, lightEmission, material.lightGroup);
+    vec3 added = addRadiance(path.throughput * weight, material.emission);
+    meetLight(added, lightEmission, material.lightGroup);
 }
 
 // Radiance from outside the scene, with the multiple importance weight against a light sample in that direction.
-void addEnvironment(uint slot) {
+void addEnvironment(vec3 direction) {
     if ((lighting & lightsByEnvironment) == 0u) {
-        vec3 added = addRadiance(slot, path[slot].throughput, frame.background);
-        meetLight(slot, added, lightBackground, frame.environmentGroup);
+        vec3 added = addRadiance(path.throughput, frame.background);
+        meetLight(added, lightBackground, frame.environmentGroup);
         return;
     }
-    EnvironmentLight found = environmentFrom(path[slot].rayDirection);
+    EnvironmentLight found = environmentFrom(direction);
     float pdf = found.pdf * frame.environmentProbability;
-    float weight = path[slot].scatterPdf > 0.0 ? powerHeuristic(path[slot].scatterPdf, pdf) : 1.0;
-    vec3 added = addRadiance(slot, path[slot].throughput * weight, found.radiance);
-    meetLight(slot, added, lightBackground, frame.environmentGroup);
+    float weight = path.scatterPdf > 0.0 ? powerHeuristic(path.scatterPdf, pdf) : 1.0;
+    vec3 added = addRadiance(path.throughput * weight, found.radiance);
+    meetLight(added, lightBackground, frame.environmentGroup);
 }
 
 // Russian roulette: long paths with a small throughput end at random, and the others gain their weight.
-bool survivesRoulette(uint slot) {
-    if (path[slot].rayDepth < firstRouletteDepth)
+bool survivesRoulette() {
+    if (path.key.depth < firstRouletteDepth)
         return true;
-    float index = hasDielectric ? mediumIndex(mediumAround(path[slot].mediaInside)) : 1.0;
+    float index = hasDielectric ? mediumIndex(mediumAround(path.mediaInside)) : 1.0;
     // Radiance in glass is larger by the square of the refractive index; the path will lose that factor on its way out.
-    float survival = lesser(largestComponent(path[slot].throughput) * (index * index), 1.0);
-    if (unitFloat(vertexBits(slot, pairChoice).y) >= survival)
+    float survival = lesser(largestComponent(path.throughput) * (index * index), 1.0);
+    if (unitFloat(vertexBits(pairChoice).y) >= survival)
         return false;
-    path[slot].throughput *= divide(1.0, survival);
+    path.throughput *= divide(1.0, survival);
     return true;
 }
 
-// Slots of the textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is
-// made.
-uint slotsBeforeLight(MaterialRecord material) {
-    uint slots = texturesEmission | texturesTransmission;
+// Textures that say what a path does at a hit. Those that only the BSDF needs are looked up when it is made.
+uint texturesBeforeLight(const MaterialRecord material) {
+    uint wanted = texturesEmission | texturesTransmission;
     if (showsBaseColour(material))
-        slots |= texturesBaseColour;
+        wanted |= texturesBaseColour;
     if (!isMixture(material)) // so that it may be specular
-        slots |= texturesRoughness;
-    return slots;
+        wanted |= texturesRoughness;
+    return wanted;
 }
 
-// The material of the hit at `position`, with its textures of `textureSlots` applied. The lookups are a loop: they
-// count as steps.
-MaterialRecord materialHit(uint slot, MaterialRecord material, uint textureSlots, vec3 position) {
-    stepsTaken += uint(bitCount(textureSlots & texturing & texturesOfLobes));
-    return hitMaterial(hitOf(slot), material, textureSlots, position);
+// The material of the hit at `position`, with the wanted textures applied. The lookups are a loop: they count as steps.
+MaterialRecord materialHit(const Hit hit, const MaterialRecord material, uint wanted, vec3 position) {
+    stepsTaken += uint(bitCount(wanted & texturing & texturesOfLobes));
+    return hitMaterial(hit, material, wanted, position);
 }
 
-void shadePath(uint slot) {
-    traceNearestHit(slot);
-    endPath(slot);
+// A path has left the scene.
+void leaveScene(vec3 direction) {
+    if (seesThrough())
+        path.transparency = meanComponent(path.throughput);
+    else
+        addEnvironment(direction);
+}
+
+// At a mirror or smooth glass.
+void scatterSpecular(const Answer answer, const Surface surface,
+                     const MaterialRecord material, uint materialIndex) {
+    if (!survivesRoulette())
+        return;
+    if (hasDielectric && isGlass(material)) {
+        scatterSmoothDielectric(answer, surface, materialIndex);
+    } else {
+        if (scattering != 0u)
+            weaken(mirrorReflectance(material, abs(dotProduct(request.ray.direction, surface.normal))));
+        reflectRay(answer, surface, surface.normal);
+    }
+}
+
+// Moves the path to a vertex that is lit, and asks for its turn there.
+void moveToVertex(uint primitive, Surface surface,
+                  const MaterialRecord material, uint materialIndex, bool isBehind) {
+    if (isBehind) {
+        if (isBlackBehind(material))
+            return;
+        surface.normal = -surface.normal;
+        surface.geometricNormal = -surface.geometricNormal;
+    }
+    path.vertex = Vertex(surface, primitive, materialIndex | (isBehind ? seenFromBehind : 0u));
+    request.kind = requestTurn;
+}
+
+void shadePath(const Answer answer) {
+    traceNearestHit(answer.hit);
     if (hasDielectric)
-        weaken(slot, transmittance(slot, path[slot].rayLength));
-    if (path[slot].hitPrimitive == noPrimitive) {
-        if (seesThrough(slot))
-            becomeTransparent(slot, path[slot].throughput);
-        else
-            addEnvironment(slot);
+        weaken(transmittance(path.mediaInside, answer.hit.distance));
+    if (answer.hit.primitive == noPrimitive) {
+        leaveScene(request.ray.direction);
         return;
     }
     uint materialIndex;
-    Surface surface = surfaceHit(slot, materialIndex);
+    Surface surface = hitSurface(answer.hit, request.ray.origin, request.ray.direction, materialIndex);
     MaterialRecord material = fetchMaterial(materialIndex);
-    material = materialHit(slot, material, slotsBeforeLight(material), surface.position);
-    traceEvent(slot, traceSurfacePosition, 0u, surface.position);
-    traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
-    traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
-    if (seesThrough(slot) && catchesShadows(material)) {
-        becomeTransparent(slot, path[slot].throughput);
+    material = materialHit(answer.hit, material, texturesBeforeLight(material), surface.position);
+    traceEvent(traceSurfacePosition, 0u, surface.position);
+    traceEvent(traceSurfaceNormal, 0u, surface.normal);
+    traceEvent(traceThroughput, 0u, path.throughput);
+    if (seesThrough() && catchesShadows(material)) {
+        path.transparency = meanComponent(path.throughput);
         return;
     }
     if (alphaKind == alphaOfBackground)
-        endSeeingThrough(slot);
+        endSeeingThrough();
     if (showsBaseColour(material)) {
-        vec3 added = addRadiance(slot, path[slot].throughput, material.albedo);
-        meetLight(slot, added, lightEmission, material.lightGroup);
+        vec3 added = addRadiance(path.throughput, material.albedo);
+        meetLight(added, lightEmission, material.lightGroup);
         return;
     }
     if (hasEmission)
-        addEmission(slot, surface, material);
-    if (path[slot].rayDepth >= frame.maxDepth)
+        addEmission(request.ray, answer.hit, surface, material);
+    if (path.key.depth >= frame.maxDepth)
         return;
-    bool isBehind = dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0;
-    if (scattering != 0u ? !isSpecularHere(slot, material, materialIndex, !isBehind)
-                         : !hasSpecular || !isSpecular(material)) {
-        if (isBehind) {
-            if (isBlackBehind(material))
-                return;
-            surface.normal = -surface.normal;
-            surface.geometricNormal = -surface.geometricNormal;
-        }
-        setSurface(slot, surface);
-        path[slot].surfaceMaterial = materialIndex | (isBehind ? seenFromBehind : 0u);
-        return;
-    }
-    if (!survivesRoulette(slot))
-        return;
-    if (hasDielectric && isGlass(material)) {
-        scatterSmoothDielectric(slot, surface, materialIndex);
-    } else {
-        if (scattering != 0u)
-            weaken(slot, mirrorReflectance(material, abs(dotProduct(path[slot].rayDirection, surface.normal))));
-        reflectRay(slot, surface, surface.normal);
-    }
-}
-
-// Stage: the nearest hit is known.
-void shadeHit(uint slot) {
-    beginHitLight(slot);
-    shadePath(slot);
-    endHitLight(slot);
-}
-
-// Continues the path from a surface, in the direction that was sampled when the surface was lit.
-void scatter(uint slot) {
-    endPath(slot);
-    vec3 direction = path[slot].scatterDirection;
-    if (!(path[slot].scatterPdf > 0.0) || !survivesRoulette(slot))
-        return;
-    traceEvent(slot, traceScatter, floatBitsToUint(path[slot].scatterPdf), direction);
-    bounceCounts[slot] += 1u;
-    continueRay(slot, offsetRayOrigin(surfaceAt(slot), direction), direction, path[slot].surfacePrimitive);
-}
-
-void skipShadowRay(uint slot, uint emitter) {
-    traceEvent(slot, traceVisibility, visibilityUnlit, vec3(emitter));
-    scatter(slot);
-}
-
-// Sends a shadow ray to the light sample.
-void aimShadowRay(uint slot, uint emitter, LightSample light) {
-    path[slot].rayTarget = light.target;
-    path[slot].lightIndex = emitter;
-    beginShadow(slot, light.direction, light.distance);
-}
-
-// Stage: on a surface, sample the direction in which the path continues, and a light.
-void sampleDirectLight(uint slot) {
-    uint materialIndex = path[slot].surfaceMaterial & ~seenFromBehind;
-    bool isBehind = (path[slot].surfaceMaterial & seenFromBehind) != 0u;
-    MaterialRecord material =
-        materialHit(slot, fetchMaterial(materialIndex), texturesOfLobes | texturesBaseColour,
-                    path[slot].surfacePosition);
-    vec3 geometricNormal = surfaceAt(slot).geometricNormal;
-    Crossing crossing = Crossing(path[slot].mediaInside, path[slot].mediaInside, 1.0, true);
-    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
-        crossing = crossingOf(slot, materialIndex, !isBehind);
-    vec2 lobe = lobeChoice(slot);
-    SurfaceAxes axes = hitAxes(hitOf(slot), path[slot].rayOrigin, path[slot].rayDirection, material,
-                               path[slot].surfaceNormal, isBehind);
-    Bsdf bsdf = makeBsdf(material, path[slot].rayDirection, path[slot].surfaceNormal, geometricNormal, axes, isBehind,
-                          crossing.eta, lobe.x);
-
-    EmitterChoice choice = chooseEmitter(litPoint(slot), vertexBits(slot, pairChoice).x);
-    uint emitter = choice.index;
-    LightSample light = sampleEmitter(choice, path[slot].surfacePosition, vertexBits(slot, pairLight));
-    vec3 wiLight = toLocal(bsdf.frame, light.direction);
-    bool isLightBeyond = dotProduct(geometricNormal, light.direction) <= 0.0;
-    BsdfEval lit = evalBsdf(bsdf, wiLight);
-    bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isLightBeyond == (wiLight.z <= 0.0);
-    // What shines through is seen by the scattered ray, as what it is.
-    bool isWindow = alphaKind == alphaThroughGlass && seesThrough(slot) && isClearGlass(material);
-    if (isWindow && isLit && isLightBeyond)
-        isLit = fetchEmitter(emitter).kind != emitterEnvironment;
-    float share = light.pdf > 0.0 ? powerHeuristic(light.pdf, lit.pdf) : 1.0;
-    path[slot].surfaceWeight = path[slot].throughput * (light.radiance * (lit.value * share));
-    if (hasDielectric) {
-        path[slot].mediaInside = isLightBeyond ? crossing.beyond : crossing.before;
-        path[slot].surfaceWeight *= transmittance(slot, light.distance);
-    }
-
-    vec3 wi = sampleBsdf(bsdf, unitFloats(vertexBits(slot, pairScatter)), lobe.y);
-    vec3 direction = unitVector(toWorld(bsdf.frame, wi));
-    BsdfEval scattered = evalBsdf(bsdf, wi);
-    bool isBeyond = dotProduct(geometricNormal, direction) <= 0.0;
-    bool isPossible = scattered.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
-    path[slot].scatterDirection = direction;
-    path[slot].scatterPdf = isPossible ? scattered.pdf : 0.0;
-    if (hasLightClasses && !isLightDiffuse) {
-        aimLight(slot, diffuseShare(bsdf, wiLight, lit.value), isLightBeyond);
-        scatterLight(slot, diffuseShare(bsdf, wi, scattered.value), isBeyond);
-    } else {
-        scatterLight(slot, vec3(1.0), false);
-    }
-    if (!(isWindow && isBeyond))
-        endSeeingThrough(slot);
-    if (hasDielectric)
-        path[slot].mediaInside = isBeyond ? crossing.beyond : crossing.before;
-    weaken(slot, isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0));
-    if (isLit)
-        aimShadowRay(slot, emitter, light);
+    bool isBehind = dotProduct(request.ray.direction, surface.geometricNormal) > 0.0;
+    if (scattering != 0u ? !isSpecularHere(path.mediaInside, material, materialIndex, !isBehind)
+                         : !hasSpecular || !isSpecular(material))
+        moveToVertex(answer.hit.primitive, surface, material, materialIndex, isBehind);
     else
-        skipShadowRay(slot, emitter);
+        scatterSpecular(answer, surface, material, materialIndex);
 }
 
-// Stage: the shadow ray has arrived, or was stopped.
-void addLight(uint slot) {
-    bool isVisible = path[slot].hitPrimitive == noPrimitive;
-    traceEvent(slot, traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(path[slot].lightIndex));
-    if (isVisible) {
-        vec3 added = addRadiance(slot, path[slot].surfaceWeight, vec3(1.0));
-        if (hasLightPlanes)
-            addSampledLight(slot, added, lightGroupOf(fetchEmitter(path[slot].lightIndex)));
+void shadeHit(const Answer answer) {
+    beginHitLight();
+    shadePath(answer);
+    endHitLight();
+}
+
+// Continues the path from its vertex, in the direction that was sampled when the vertex was lit.
+void scatter() {
+    vec3 direction = path.scatterDirection;
+    if (!(path.scatterPdf > 0.0) || !survivesRoulette())
+        return;
+    traceEvent(traceScatter, floatBitsToUint(path.scatterPdf), direction);
+    path.bounces += 1u;
+    continueRay(offsetRayOrigin(surfaceAt(), direction), direction, path.vertex.primitive);
+}
+
+// How a vertex scatters: its BSDF, and the media on both sides.
+struct Scatterer {
+    Bsdf bsdf;
+    float lobe; // random number, in [0, 1)
+    vec3 geometricNormal;
+    Crossing crossing;
+    bool isWindow; // what shines through is seen by the scattered ray, as what it is
+};
+
+Scatterer scattererAt(const Ray ray, const Hit hit) {
+    uint materialIndex = path.vertex.material & ~seenFromBehind;
+    bool isBehind = (path.vertex.material & seenFromBehind) != 0u;
+    MaterialRecord material = materialHit(hit, fetchMaterial(materialIndex),
+                                          texturesOfLobes | texturesBaseColour, path.vertex.surface.position);
+    vec3 geometricNormal = surfaceAt().geometricNormal;
+    Crossing crossing = Crossing(path.mediaInside, path.mediaInside, 1.0, true);
+    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
+        crossing = crossingOf(path.mediaInside, materialIndex, !isBehind);
+    vec2 lobe = lobeChoice();
+    vec3 normal = path.vertex.surface.normal;
+    SurfaceAxes axes = hitAxes(hit, ray.origin, ray.direction, material, normal, isBehind);
+    Bsdf bsdf = makeBsdf(material, ray.direction, normal, geometricNormal, axes, isBehind, crossing.eta, lobe.x);
+    bool isWindow = alphaKind == alphaThroughGlass && seesThrough() && isClearGlass(material);
+    return Scatterer(bsdf, lobe.y, geometricNormal, crossing, isWindow);
+}
+
+// Samples the direction in which the path continues, as the share of its throughput.
+void sampleScattering(const Scatterer scatterer, vec3 diffuseOfLight, bool isLightBeyond) {
+    vec3 wi = sampleBsdf(scatterer.bsdf, unitFloats(vertexBits(pairScatter)), scatterer.lobe);
+    vec3 direction = unitVector(toWorld(scatterer.bsdf.frame, wi));
+    BsdfEval scattered = evalBsdf(scatterer.bsdf, wi);
+    bool isBeyond = dotProduct(scatterer.geometricNormal, direction) <= 0.0;
+    bool isPossible = scattered.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
+    path.scatterDirection = direction;
+    path.scatterPdf = isPossible ? scattered.pdf : 0.0;
+    if (hasLightClasses && !isLightDiffuse) {
+        aimLight(diffuseOfLight, isLightBeyond);
+        scatterLight(diffuseShare(scatterer.bsdf, wi, scattered.value), isBeyond);
+    } else {
+        scatterLight(vec3(1.0), false);
     }
-    scatter(slot);
+    if (!(scatterer.isWindow && isBeyond))
+        endSeeingThrough();
+    if (hasDielectric)
+        path.mediaInside = isBeyond ? scatterer.crossing.beyond : scatterer.crossing.before;
+    weaken(isPossible ? scattered.value * divide(1.0, scattered.pdf) : vec3(0.0));
 }
 
-// Work of the search for an emitter, in all slots.
-uint searchIterations() {
+// At a vertex: samples a light, and the direction in which the path continues.
+void lightVertex(const Answer answer) {
+    Scatterer scatterer = scattererAt(request.ray, answer.hit);
+    EmitterChoice choice = chooseEmitter(litPoint(path.vertex), vertexBits(pairChoice).x);
+    LightSample light = sampleEmitter(choice, path.vertex.surface.position, vertexBits(pairLight));
+    vec3 wi = toLocal(scatterer.bsdf.frame, light.direction);
+    bool isBeyond = dotProduct(scatterer.geometricNormal, light.direction) <= 0.0;
+    BsdfEval lit = evalBsdf(scatterer.bsdf, wi);
+    bool isLit = largestComponent(light.radiance) > 0.0 && lit.pdf > 0.0 && isBeyond == (wi.z <= 0.0);
+    if (scatterer.isWindow && isLit && isBeyond)
+        isLit = fetchEmitter(choice.index).kind != emitterEnvironment;
+    float share = light.pdf > 0.0 ? powerHeuristic(light.pdf, lit.pdf) : 1.0;
+    path.lightWeight = path.throughput * (light.radiance * (lit.value * share));
+    if (hasDielectric) {
+        path.mediaInside = isBeyond ? scatterer.crossing.beyond : scatterer.crossing.before;
+        path.lightWeight *= transmittance(path.mediaInside, light.distance);
+    }
+    vec3 diffuse = vec3(0.0);
+    if (hasLightClasses && !isLightDiffuse)
+        diffuse = diffuseShare(scatterer.bsdf, wi, lit.value);
+    sampleScattering(scatterer, diffuse, isBeyond);
+    if (!isLit) {
+        traceEvent(traceVisibility, visibilityUnlit, vec3(choice.index));
+        scatter();
+        return;
+    }
+    path.lightIndex = choice.index;
+    askVisibility(light.direction, light.distance, light.target);
+}
+
+void addLight(const Answer answer) {
+    bool isVisible = answer.hit.primitive == noPrimitive;
+    traceEvent(traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(path.lightIndex));
+    if (isVisible) {
+        vec3 added = addRadiance(path.lightWeight, vec3(1.0));
+        if (hasLightPlanes)
+            addSampledLight(added, lightGroupOf(fetchEmitter(path.lightIndex)));
+    }
+    scatter();
+}
+
+// Steps of the search for an emitter, in a turn of all rays.
+uint stepsOfTurn() {
     // Of the light tree, this is the usual depth, too.
     uint emitters = emitterCount > 1u ? RAYS * uint(findMSB(emitterCount) + 1) : 0u;
     uint texels = (lighting & lightsByEnvironment) != 0u
@@ -295,14 +310,6 @@ uint searchIterations() {
     return emitters + texels;
 }
 
-void advancePaths() {
-    do {
-        do
-            traceRays();
-        while (!regeneratesPaths && hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
-        lightSurfaces();
-        stepsTaken += 1u + searchIterations();
-    } while (!regeneratesPaths && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
-}
+#include "shaders/drive/drive.glsl"
 
 void main() { integrate(); }

@@ -16,17 +16,15 @@ void storePendingRay(uint index, PendingRay ray) { pendingRays[index] = ray; }
 PendingRay loadPendingRay(uint index) { return pendingRays[index]; }
 #endif
 
-PendingRay pendingLevels[RAYS][maxPendingInRegisters];
-
 // The stack is not empty.
-PendingRay popPendingRay(uint slot) {
-    uint level = path[slot].pendingCount - 1u;
-    path[slot].pendingCount = level;
+PendingRay popPendingRay() {
+    uint top = path.pending.count - 1u;
+    path.pending.count = top;
     if (pendingInRegisters == 0u)
-        return loadPendingRay(level * slotCount() + slotIndex[slot]);
-    PendingRay ray = pendingLevels[slot][0];
+        return loadPendingRay(top * pathCount() + path.key.index);
+    PendingRay ray = path.pending.levels[0];
     [[unroll]] for (uint i = 1u; i < pendingInRegisters; ++i)
-        if (i == level)
-            ray = pendingLevels[slot][i];
+        if (i == top)
+            ray = path.pending.levels[i];
     return ray;
 }

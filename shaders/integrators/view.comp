@@ -24,8 +24,10 @@ layout(constant_id = constantLooksThrough) const bool looksThrough = false;
 const bool lightPassesGlass = false;
 const bool raysHaveTargets = false;
 const bool hasBounces = view == viewShadow; // a ray to the light
-const bool hasSegments = view == viewShadow || looksThrough;
 const bool carriesRadiance = false;
+const bool hasChains = view == viewShadow || looksThrough;
+const bool sendsShadowRays = view == viewOcclusion;
+const bool goesOn = false;
 
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/specular.glsl"
@@ -35,22 +37,21 @@ const uint texturesOfClearness = texturesRoughness | texturesMetallic | textures
                                  1u << slotDielectricWeight | 1u << slotDielectricColour |
                                  (view == viewAlbedo ? texturesBaseColour : 0u);
 
-void beginSample(uint slot) {
+void begin() {
     if (looksThrough)
-        beginInMedia(slot);
+        beginInMedia();
     else
-        sendPrimaryRay(slot);
+        askPrimary();
 }
 
-void show(uint slot, vec3 value) {
-    if (!showsCost)
-        path[slot].sampleRadiance = value;
-    traceEvent(slot, traceRadiance, 0u, value);
+void show(vec3 value) {
+    path.radiance = value;
+    traceEvent(traceRadiance, 0u, value);
 }
 
 // The surface as it is seen from the ray's side.
-Surface facing(uint slot, Surface surface) {
-    if (dotProduct(path[slot].rayDirection, surface.geometricNormal) > 0.0) {
+Surface facing(Surface surface, vec3 direction) {
+    if (dotProduct(direction, surface.geometricNormal) > 0.0) {
         surface.normal = -surface.normal;
         surface.geometricNormal = -surface.geometricNormal;
     }
@@ -58,67 +59,70 @@ Surface facing(uint slot, Surface surface) {
 }
 
 // Sends a ray on towards the light, `left` away.
-void goToLight(uint slot, Surface surface, float left) {
-    vec3 direction = path[slot].scatterDirection;
-    path[slot].scatterPdf = left;
-    startRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive, 2u, noMaterial);
+void goToLight(uint primitive, const Surface surface, float left,
+               uint target) {
+    vec3 direction = path.scatterDirection;
+    path.scatterPdf = left;
+    path.key.depth = 2u;
+    askNearest(offsetRayOrigin(surface, direction), direction, primitive);
+    request.ray.target = target;
 }
 
-// On a shadow catcher: aims at a light.
-void catchShadow(uint slot, Surface surface) {
+// On a shadow catcher: aims at a light. `lightIndex`: how the light is seen so far, visibility...
+void catchShadow(uint primitive, const Surface surface) {
     LitPoint point = LitPoint(surface.position, surface.normal, false);
-    EmitterChoice choice = chooseEmitter(point, vertexBits(slot, pairChoice).x);
-    LightSample light = sampleEmitter(choice, surface.position, vertexBits(slot, pairLight));
+    EmitterChoice choice = chooseEmitter(point, vertexBits(pairChoice).x);
+    LightSample light = sampleEmitter(choice, surface.position, vertexBits(pairLight));
     float cosine = dotProduct(surface.normal, light.direction);
     bool isLit = cosine > 0.0 && dotProduct(surface.geometricNormal, light.direction) > 0.0;
     float unblocked = isLit ? withoutTiny(luminance(light.radiance) * cosine) : 0.0;
-    show(slot, vec3(1.0, unblocked, unblocked));
+    show(vec3(1.0, unblocked, unblocked));
     if (!(unblocked > 0.0))
         return;
-    rayCounts[slot].y += 1u;
-    path[slot].scatterDirection = light.direction;
-    path[slot].rayTarget = light.target;
-    path[slot].isLightDimmed = 0u;
-    goToLight(slot, surface, light.distance);
+    path.rays.y += 1u;
+    path.scatterDirection = light.direction;
+    path.lightIndex = visibilityClear;
+    goToLight(primitive, surface, light.distance, light.target);
 }
 
-// Stage: the nearest surface on the way to the light is known.
-void passToLight(uint slot) {
-    float left = path[slot].scatterPdf;
-    bool isThere = path[slot].hitPrimitive == noPrimitive || path[slot].rayLength >= left ||
-                   path[slot].hitPrimitive == path[slot].rayTarget;
-    float unblocked = path[slot].sampleRadiance.y;
+// The nearest surface on the way to the light is known.
+void passToLight(const Answer answer) {
+    float left = path.scatterPdf;
+    bool isThere = answer.hit.primitive == noPrimitive || answer.hit.distance >= left ||
+                   answer.hit.primitive == request.ray.target;
+    float unblocked = path.radiance.y;
     if (isThere) {
-        bool isDimmed = path[slot].isLightDimmed != 0u;
+        bool isDimmed = path.lightIndex == visibilityDimmed;
         float blocked = isDimmed ? unblocked * (1.0 - frame.shadowThroughGlass) : 0.0;
-        traceEvent(slot, traceVisibility, isDimmed ? visibilityDimmed : visibilityClear, vec3(0.0));
-        show(slot, vec3(1.0, unblocked, blocked));
+        traceEvent(traceVisibility, path.lightIndex, vec3(0.0));
+        show(vec3(1.0, unblocked, blocked));
         return;
     }
     uint materialIndex;
-    Surface surface = surfaceHit(slot, materialIndex);
+    Surface surface = hitSurface(answer.hit, request.ray.origin, request.ray.direction, materialIndex);
     MaterialRecord material = fetchMaterial(materialIndex);
     bool isDimming = isGlass(material) || isThinGlass(material);
     if (!isDimming && !catchesShadows(material)) {
-        traceEvent(slot, traceVisibility, visibilityBlocked, vec3(0.0));
+        traceEvent(traceVisibility, visibilityBlocked, vec3(0.0));
         return;
     }
     if (isDimming)
-        path[slot].isLightDimmed = 1u;
-    goToLight(slot, surface, left - path[slot].rayLength);
+        path.lightIndex = visibilityDimmed;
+    goToLight(answer.hit.primitive, surface, left - answer.hit.distance, request.ray.target);
 }
 
 // Thin glass: chooses reflection or passes straight through.
-void scatterThinGlass(uint slot, Surface surface, MaterialRecord material) {
-    vec3 direction = path[slot].rayDirection;
+void scatterThinGlass(const Answer answer, const Surface surface,
+                      const MaterialRecord material) {
+    vec3 direction = request.ray.direction;
     vec3 reflectance = schlickReflectance(abs(dotProduct(direction, surface.normal)), dielectricReflectance(material),
                                           material.dielectricWeight);
-    if (unitFloat(vertexBits(slot, pairChoice).x) < largestComponent(reflectance)) {
-        reflectRay(slot, surface, surface.normal);
+    if (unitFloat(vertexBits(pairChoice).x) < largestComponent(reflectance)) {
+        reflectRay(answer, surface, surface.normal);
         return;
     }
-    weaken(slot, glassTint(material));
-    continueRay(slot, offsetRayOrigin(surface, direction), direction, path[slot].hitPrimitive);
+    weaken(glassTint(material));
+    continueRay(offsetRayOrigin(surface, direction), direction, answer.hit.primitive);
 }
 
 // Whether the material may be looked through with its textures, which only take from metal and glass: before they are
@@ -130,30 +134,32 @@ bool mayBeLookedThrough(MaterialRecord material) {
 }
 
 // Sends the ray on, and returns true, if the surface is looked through.
-bool lookThrough(uint slot, Surface surface, uint materialIndex) {
+bool lookThrough(const Answer answer, const Surface surface,
+                 uint materialIndex) {
     MaterialRecord material = fetchMaterial(materialIndex);
-    if (path[slot].rayDepth >= frame.maxDepth || !mayBeLookedThrough(material))
+    if (path.key.depth >= frame.maxDepth || !mayBeLookedThrough(material))
         return false;
     stepsTaken += uint(bitCount(texturesOfClearness & texturing));
-    material = hitMaterial(hitOf(slot), material, texturesOfClearness, surface.position);
-    vec3 direction = path[slot].rayDirection;
+    material = hitMaterial(answer.hit, material, texturesOfClearness, surface.position);
+    vec3 direction = request.ray.direction;
     bool isBehind = dotProduct(direction, surface.geometricNormal) > 0.0;
-    bool isClear = isSpecularHere(slot, material, materialIndex, !isBehind) || isLookedThrough(material);
+    bool isClear =
+        isSpecularHere(path.mediaInside, material, materialIndex, !isBehind) || isLookedThrough(material);
     if (!isClear || (isBehind && isMixture(material) && isBlackBehind(material)))
         return false;
     if (view == viewDepth)
-        show(slot, path[slot].sampleRadiance + vec3(path[slot].rayLength));
+        show(path.radiance + vec3(answer.hit.distance));
     bool isMetal = isLookedAtAsMetal(material);
     if (hasDielectric && isGlass(material) && !isMetal) {
-        if (scatterSmoothDielectric(slot, surface, materialIndex))
-            weaken(slot, glassTint(material));
+        if (scatterSmoothDielectric(answer, surface, materialIndex))
+            weaken(glassTint(material));
     } else if (isThinGlass(material) && !isMetal) {
-        scatterThinGlass(slot, surface, material);
+        scatterThinGlass(answer, surface, material);
     } else {
         float cosine = abs(dotProduct(direction, surface.normal));
-        weaken(slot, isMixture(material) ? schlickReflectance(cosine, material.albedo, 1.0)
-                                         : mirrorReflectance(material, cosine));
-        reflectRay(slot, surface, surface.normal);
+        weaken(isMixture(material) ? schlickReflectance(cosine, material.albedo, 1.0)
+                                                    : mirrorReflectance(material, cosine));
+        reflectRay(answer, surface, surface.normal);
     }
     return true;
 }
@@ -165,77 +171,77 @@ vec3 ofNothing() {
     return vec3(view == viewOcclusion ? 1.0 : 0.0);
 }
 
-// Stage: the nearest hit is known.
-void shadeHit(uint slot) {
-    traceNearestHit(slot);
-    path[slot].stage = stageSampleDone;
-    if (view == viewShadow && path[slot].rayDepth > 1u) {
-        passToLight(slot);
-        return;
-    }
-    if (path[slot].hitPrimitive == noPrimitive) {
-        show(slot, ofNothing());
-        return;
-    }
-    uint materialIndex;
-    Surface surface = surfaceHit(slot, materialIndex);
-    traceEvent(slot, traceSurfacePosition, 0u, surface.position);
-    traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
-    if (looksThrough) {
-        if (hasDielectric)
-            weaken(slot, transmittance(slot, path[slot].rayLength));
-        if (lookThrough(slot, surface, materialIndex))
-            return;
-        surface = facing(slot, surface);
-    }
+// What the surface at the end of the path shows.
+void showSurface(const Answer answer, const Surface surface,
+                 uint materialIndex) {
     if (view == viewNormal)
-        show(slot, normalColour(surface.normal));
+        show(normalColour(surface.normal));
     if (view == viewDepth)
-        show(slot, path[slot].sampleRadiance + vec3(path[slot].rayLength));
+        show(path.radiance + vec3(answer.hit.distance));
     if (view == viewId)
-        show(slot, idColour(path[slot].hitPrimitive));
+        show(idColour(answer.hit.primitive));
     if (view == viewCoordinates) {
-        vec2 uv = hitUvs(hitOf(slot), surface.position).first;
-        show(slot, vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
+        vec2 uv = hitUvs(answer.hit, surface.position).first;
+        show(vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {
         MaterialRecord material =
-            hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour, surface.position);
+            hitMaterial(answer.hit, fetchMaterial(materialIndex), texturesBaseColour, surface.position);
         vec3 colour = isColourless(material) ? vec3(1.0) : material.albedo;
-        show(slot, looksThrough ? withoutTiny(path[slot].throughput * colour) : colour);
+        show(looksThrough ? withoutTiny(path.throughput * colour) : colour);
     }
     if (view == viewShadow && catchesShadows(fetchMaterial(materialIndex)))
-        catchShadow(slot, facing(slot, surface));
+        catchShadow(answer.hit.primitive, facing(surface, request.ray.direction));
     if (view >= viewObject)
-        show(slot, vec3(floatOf(numberOf(view, path[slot].hitPrimitive, materialIndex))));
-    if (view == viewOcclusion)
-        setSurface(slot, facing(slot, surface));
+        show(vec3(floatOf(numberOf(view, answer.hit.primitive, materialIndex))));
+    if (view == viewOcclusion) {
+        path.vertex = Vertex(facing(surface, request.ray.direction), answer.hit.primitive, materialIndex);
+        request.kind = requestTurn;
+    }
 }
 
-// Stage: send a ray to a random point of the sky.
-void sampleDirectLight(uint slot) {
-    uvec2 bits = sampleBits(pairKeys(imagePixel[slot], frame.seed, occlusionPair), path[slot].sampleIndex);
-    vec3 direction = sampleCosine(path[slot].surfaceNormal, unitFloats(bits));
-    path[slot].stage = stageSampleDone;
-    if (dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0)
-        beginShadow(slot, direction, frame.occlusionDistance);
+void shadeHit(const Answer answer) {
+    traceNearestHit(answer.hit);
+    if (view == viewShadow && path.key.depth > 1u) {
+        passToLight(answer);
+        return;
+    }
+    if (answer.hit.primitive == noPrimitive) {
+        show(ofNothing());
+        return;
+    }
+    uint materialIndex;
+    Surface surface = hitSurface(answer.hit, request.ray.origin, request.ray.direction, materialIndex);
+    traceEvent(traceSurfacePosition, 0u, surface.position);
+    traceEvent(traceSurfaceNormal, 0u, surface.normal);
+    if (looksThrough) {
+        if (hasDielectric)
+            weaken(transmittance(path.mediaInside, answer.hit.distance));
+        if (lookThrough(answer, surface, materialIndex))
+            return;
+        surface = facing(surface, request.ray.direction);
+    }
+    showSurface(answer, surface, materialIndex);
 }
 
-// Stage: the ray has reached the sky, or was blocked.
-void addLight(uint slot) {
-    path[slot].stage = stageSampleDone;
-    bool isVisible = path[slot].hitPrimitive == noPrimitive;
-    traceEvent(slot, traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(0.0));
+// Sends a ray to a random point of the sky.
+void lightVertex(const Answer answer) {
+    uvec2 bits = sampleBits(pairKeys(path.key.pixel, frame.seed, occlusionPair), path.key.sampleIndex);
+    vec3 direction = sampleCosine(path.vertex.surface.normal, unitFloats(bits));
+    if (dotProduct(surfaceAt().geometricNormal, direction) > 0.0)
+        askVisibility(direction, frame.occlusionDistance, noPrimitive);
+}
+
+// The ray has reached the sky, or was blocked.
+void addLight(const Answer answer) {
+    bool isVisible = answer.hit.primitive == noPrimitive;
+    traceEvent(traceVisibility, isVisible ? visibilityClear : visibilityBlocked, vec3(0.0));
     if (isVisible)
-        show(slot, vec3(1.0));
+        show(vec3(1.0));
 }
 
-void advancePaths() {
-    do
-        traceRays();
-    while (hasSegments && !regeneratesPaths && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
-    if (view == viewOcclusion)
-        lightSurfaces();
-}
+uint stepsOfTurn() { return 0u; }
+
+#include "shaders/drive/drive.glsl"
 
 void main() { integrate(); }

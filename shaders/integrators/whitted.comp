@@ -2,88 +2,100 @@
 // deterministic. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 // Twin: host/reference/whitted.h, where the same happens ray by ray.
 //
-// A path slot works through the samples of one pixel and, for each of them, through the tree of rays that glass splits
-// it into.
+// Glass splits a path in two: it goes on with the refracted ray, and its reflection is another path of the sample,
+// which is followed after it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
+#define SPLITS_RAYS 1
 #include "shaders/kernels/begin_kernel.glsl"
 
 const bool lightPassesGlass = hasDielectric;
 const bool raysHaveTargets = false;
 const bool hasBounces = false;
+const bool hasChains = hasSpecular;
+const bool sendsShadowRays = true;
+const bool goesOn = hasSpecular || lightCount > 1u;
 
 #include "shaders/kernels/stages.glsl"
-#include "shaders/integrators/pending_rays.glsl"
 
-void beginSample(uint slot) {
-    beginInMedia(slot);
-    beginTransparency(slot);
+void begin() {
+    path.pending.count = 0u;
+    beginTransparency();
+    beginInMedia();
 }
 
 // Ends a path; the sample may have another one pending.
-void endPath(uint slot) {
-    path[slot].stage = hasDielectric && path[slot].pendingCount > 0u ? stageNextRay : stageSampleDone;
+void endPath() {
+    if (hasDielectric && path.pending.count > 0u)
+        request.kind = requestResume;
 }
 
-// Stage: take the pending ray.
-void takePendingRay(uint slot) {
-    PendingRay ray = popPendingRay(slot);
-    endSeeingThrough(slot); // it was reflected
-    path[slot].throughput = ray.throughput;
-    startRay(slot, ray.origin, ray.direction, ray.excluded, ray.depth, ray.medium);
+// Follows a pending ray, which was reflected.
+void resume() {
+    PendingRay ray = popPendingRay();
+    endSeeingThrough();
+    path.throughput = ray.throughput;
+    path.key.depth = ray.depth;
+    path.medium = ray.medium;
+    askNearest(ray.origin, ray.direction, ray.excluded);
 }
 
-void reflectRay(uint slot, Surface surface, uint medium) {
-    vec3 direction = mirrorDirection(path[slot].rayDirection, surface.normal);
-    vec3 origin = offsetRayOrigin(surface, direction);
-    endSeeingThrough(slot);
-    startRay(slot, origin, direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u, medium);
-    rayCounts[slot].z += 1u;
+void reflectRay(uint primitive, const Surface surface, uint medium) {
+    vec3 direction = mirrorDirection(request.ray.direction, surface.normal);
+    endSeeingThrough();
+    path.key.depth += 1u;
+    path.medium = medium;
+    path.rays.z += 1u;
+    askNearest(offsetRayOrigin(surface, direction), direction, primitive);
 }
 
-PendingRay reflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
+PendingRay reflectedRay(vec3 direction, uint primitive, const Surface surface,
+                        float reflectance, uint medium) {
     PendingRay reflected;
-    reflected.direction = mirrorDirection(path[slot].rayDirection, surface.normal);
+    reflected.direction = mirrorDirection(direction, surface.normal);
     reflected.origin = offsetRayOrigin(surface, reflected.direction);
-    reflected.excluded = path[slot].hitPrimitive;
-    reflected.depth = path[slot].rayDepth + 1u;
+    reflected.excluded = primitive;
+    reflected.depth = path.key.depth + 1u;
     reflected.medium = medium;
-    reflected.throughput = path[slot].throughput * reflectance;
+    reflected.throughput = path.throughput * reflectance;
     return reflected;
 }
 
 // Each branch makes its own ray. A branch that only copies would become selections, which lavapipe merges a second time
 // under the mask of the enclosing loop; it computes common parts of the branches once.
-void pushReflectedRay(uint slot, Surface surface, float reflectance, uint medium) {
-    uint level = path[slot].pendingCount;
-    path[slot].pendingCount = level + 1u;
+void pushReflectedRay(vec3 direction, uint primitive, const Surface surface, float reflectance,
+                      uint medium) {
+    uint level = path.pending.count;
+    path.pending.count = level + 1u;
     if (pendingInRegisters == 0u)
-        storePendingRay(level * slotCount() + slotIndex[slot], reflectedRay(slot, surface, reflectance, medium));
+        storePendingRay(level * pathCount() + path.key.index,
+                        reflectedRay(direction, primitive, surface, reflectance, medium));
     [[unroll]] for (uint i = 0u; i < pendingInRegisters; ++i)
         if (i == level)
-            pendingLevels[slot][i] = reflectedRay(slot, surface, reflectance, medium);
+            path.pending.levels[i] = reflectedRay(direction, primitive, surface, reflectance, medium);
 }
 
-void splitAtGlass(uint slot, Surface surface, MaterialRecord material, uint materialIndex, bool isEntering) {
-    vec3 direction = path[slot].rayDirection;
+void splitAtGlass(uint primitive, const Surface surface,
+                  const MaterialRecord material, uint materialIndex, bool isEntering) {
+    vec3 direction = request.ray.direction;
     vec3 facing = isEntering ? surface.normal : -surface.normal;
     Refraction refraction = refractRay(direction, facing, material.refractiveIndex, isEntering);
-    traceEvent(slot, traceReflectance, refraction.isTotal ? 1u : 0u, vec3(refraction.reflectance));
-    uint mediumOfReflection = isEntering ? path[slot].rayMedium : materialIndex;
+    traceEvent(traceReflectance, refraction.isTotal ? 1u : 0u, vec3(refraction.reflectance));
+    uint mediumOfReflection = isEntering ? path.medium : materialIndex;
     if (refraction.isTotal) {
-        reflectRay(slot, surface, mediumOfReflection);
+        reflectRay(primitive, surface, mediumOfReflection);
         return;
     }
     // The reflected ray waits; the path continues with the refracted one.
-    pushReflectedRay(slot, surface, refraction.reflectance, mediumOfReflection);
-    rayCounts[slot].z += 1u;
+    pushReflectedRay(direction, primitive, surface, refraction.reflectance, mediumOfReflection);
+    path.rays.z += 1u;
 
-    path[slot].throughput = path[slot].throughput * refraction.transmittance;
-    vec3 origin = offsetRayOrigin(surface, refraction.direction);
-    startRay(slot, origin, refraction.direction, path[slot].hitPrimitive, path[slot].rayDepth + 1u,
-             isEntering ? materialIndex : noMaterial);
-    rayCounts[slot].w += 1u;
+    path.throughput = path.throughput * refraction.transmittance;
+    path.key.depth += 1u;
+    path.medium = isEntering ? materialIndex : noMaterial;
+    path.rays.w += 1u;
+    askNearest(offsetRayOrigin(surface, refraction.direction), refraction.direction, primitive);
 }
 
 // Radiance of rays that leave the scene.
@@ -93,147 +105,139 @@ vec3 radianceAround(vec3 direction) {
     return frame.background;
 }
 
-void leaveScene(uint slot, vec3 tint) {
-    if (seesThrough(slot))
-        becomeTransparent(slot, path[slot].throughput * tint);
-    else if (!showsCost)
-        path[slot].sampleRadiance = path[slot].sampleRadiance + withoutTiny(path[slot].throughput * tint) *
-                                                                    radianceAround(path[slot].rayDirection);
-    traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
-    endPath(slot);
+void leaveScene(vec3 direction, vec3 tint) {
+    if (seesThrough())
+        path.transparency = meanComponent(path.throughput * tint);
+    else
+        path.radiance = path.radiance + withoutTiny(path.throughput * tint) * radianceAround(direction);
+    traceEvent(traceRadiance, 0u, path.radiance);
 }
 
-// Stage: the nearest hit is known.
-void shadeHit(uint slot) {
-    traceNearestHit(slot);
+void addRadiance(vec3 added) {
+    path.radiance = path.radiance + added;
+    traceEvent(traceRadiance, 0u, path.radiance);
+}
+
+// Moves the path to a surface that its lights light.
+void moveToVertex(uint primitive, Surface surface,
+                  const MaterialRecord material) {
+    if (isTwoSided(material) && dotProduct(request.ray.direction, surface.geometricNormal) > 0.0) {
+        surface.normal = -surface.normal;
+        surface.geometricNormal = -surface.geometricNormal;
+    }
+    path.vertex = Vertex(surface, primitive, 0u);
+    path.lightWeight = path.throughput * (material.albedo * inversePi);
+    path.lightIndex = 0u;
+    request.kind = requestTurn;
+}
+
+void shadeHit(const Answer answer) {
+    traceNearestHit(answer.hit);
     // Tint of the glass that the ray was in, fetched once.
     vec3 tint = vec3(1.0);
-    if (hasDielectric && path[slot].rayMedium != noMaterial)
-        tint = fetchMaterial(path[slot].rayMedium).segmentTint;
-    if (path[slot].hitPrimitive == noPrimitive) {
-        leaveScene(slot, tint);
+    if (hasDielectric && path.medium != noMaterial)
+        tint = fetchMaterial(path.medium).segmentTint;
+    vec3 direction = request.ray.direction;
+    if (answer.hit.primitive == noPrimitive) {
+        leaveScene(direction, tint);
+        endPath();
         return;
     }
     uint materialIndex;
-    Surface surface = surfaceHit(slot, materialIndex);
-    MaterialRecord material =
-        hitMaterial(hitOf(slot), fetchMaterial(materialIndex), texturesBaseColour | texturesEmission, surface.position);
-    vec3 direction = path[slot].rayDirection;
+    Surface surface = hitSurface(answer.hit, request.ray.origin, direction, materialIndex);
+    MaterialRecord material = hitMaterial(answer.hit, fetchMaterial(materialIndex),
+                                          texturesBaseColour | texturesEmission, surface.position);
     bool isEntering = dotProduct(direction, surface.normal) < 0.0;
     bool isClear = hasDielectric && isGlassForWhitted(material);
     if (hasDielectric)
-        path[slot].throughput =
-            withoutTiny(path[slot].throughput * (isClear && !isEntering ? material.segmentTint : tint));
-    traceEvent(slot, traceSurfacePosition, 0u, surface.position);
-    traceEvent(slot, traceSurfaceNormal, 0u, surface.normal);
-    traceEvent(slot, traceThroughput, 0u, path[slot].throughput);
-    if (seesThrough(slot) && catchesShadows(material)) {
-        becomeTransparent(slot, path[slot].throughput);
-        endPath(slot);
+        path.throughput = withoutTiny(path.throughput * (isClear && !isEntering ? material.segmentTint : tint));
+    traceEvent(traceSurfacePosition, 0u, surface.position);
+    traceEvent(traceSurfaceNormal, 0u, surface.normal);
+    traceEvent(traceThroughput, 0u, path.throughput);
+    if (seesThrough() && catchesShadows(material)) {
+        path.transparency = meanComponent(path.throughput);
+        endPath();
         return;
     }
     if (alphaKind == alphaOfBackground)
-        endSeeingThrough(slot);
+        endSeeingThrough();
     if (showsBaseColour(material)) {
-        if (!showsCost)
-            path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.albedo;
-        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
-        endPath(slot);
+        addRadiance(path.throughput * material.albedo);
+        endPath();
         return;
     }
     bool isSeenFromFront = dotProduct(direction, surface.geometricNormal) < 0.0;
-    if (hasEmission && !showsCost && (isSeenFromFront || emitsBehind(material))) {
-        path[slot].sampleRadiance = path[slot].sampleRadiance + path[slot].throughput * material.emission;
-        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
-    }
-    endPath(slot);
+    if (hasEmission && (isSeenFromFront || emitsBehind(material)))
+        addRadiance(path.throughput * material.emission);
+    endPath();
     if (!hasSpecular || isDiffuseForWhitted(material)) {
-        if (isTwoSided(material) && dotProduct(direction, surface.geometricNormal) > 0.0) {
-            surface.normal = -surface.normal;
-            surface.geometricNormal = -surface.geometricNormal;
-        }
-        setSurface(slot, surface);
-        path[slot].surfaceWeight = path[slot].throughput * (material.albedo * inversePi);
-        path[slot].lightIndex = 0u;
-    } else if (path[slot].rayDepth < frame.maxDepth) {
+        moveToVertex(answer.hit.primitive, surface, material);
+    } else if (path.key.depth < frame.maxDepth) {
         if (isClear) {
-            splitAtGlass(slot, surface, material, materialIndex, isEntering);
+            splitAtGlass(answer.hit.primitive, surface, material, materialIndex, isEntering);
         } else {
-            path[slot].throughput = withoutTiny(path[slot].throughput * mirrorReflectanceForWhitted(material));
-            reflectRay(slot, surface, path[slot].rayMedium);
+            path.throughput = withoutTiny(path.throughput * mirrorReflectanceForWhitted(material));
+            reflectRay(answer.hit.primitive, surface, path.medium);
         }
     }
 }
 
-// Stage: send a shadow ray to the next light, if it is on the front side of the surface.
-void sampleDirectLight(uint slot) {
-    if (path[slot].lightIndex == lightCount) {
-        endPath(slot);
+// The next light, if there is one.
+void goToNextLight() {
+    path.lightIndex += 1u;
+    request.kind = requestTurn;
+    if (path.lightIndex == lightCount) {
+        request.kind = requestEnd;
+        endPath();
+    }
+}
+
+// Sends a shadow ray to the next light, if it is on the front side of the surface.
+void lightVertex(const Answer answer) {
+    if (path.lightIndex == lightCount) { // there is none
+        endPath();
         return;
     }
-    LightRecord light = lightAt(path[slot].lightIndex);
-    vec3 toLight = light.position - path[slot].surfacePosition;
+    LightRecord light = lightAt(path.lightIndex);
+    vec3 toLight = light.position - path.vertex.surface.position;
     float distance = vectorLength(toLight);
     vec3 direction = toLight * divide(1.0, distance);
     if ((lighting & lightsByDirections) != 0u && light.kind == lightDirectional) {
         distance = unbounded;
         direction = -light.axis;
     }
-    bool isLit = dotProduct(path[slot].surfaceNormal, direction) > 0.0 &&
-                 dotProduct(surfaceAt(slot).geometricNormal, direction) > 0.0;
-    if (!isLit) {
-        traceEvent(slot, traceVisibility, visibilityUnlit, vec3(path[slot].lightIndex));
-        path[slot].lightIndex += 1u;
-        if (path[slot].lightIndex == lightCount)
-            endPath(slot);
+    Surface surface = surfaceAt();
+    if (dotProduct(surface.normal, direction) > 0.0 && dotProduct(surface.geometricNormal, direction) > 0.0) {
+        askVisibility(direction, distance, noPrimitive);
         return;
     }
-    beginShadow(slot, direction, distance);
+    traceEvent(traceVisibility, visibilityUnlit, vec3(path.lightIndex));
+    goToNextLight();
 }
 
-// Stage: the shadow ray has arrived, or was stopped.
-void addLight(uint slot) {
-    bool isVisible = path[slot].hitPrimitive == noPrimitive;
-    bool isDimmed = hasDielectric && path[slot].isLightDimmed != 0u;
-    traceEvent(slot, traceVisibility, isVisible ? (isDimmed ? visibilityDimmed : visibilityClear) : visibilityBlocked,
-               vec3(path[slot].lightIndex));
-    if (isVisible && !showsCost) {
-        LightRecord light = lightAt(path[slot].lightIndex);
-        float squaredDistance = path[slot].rayLength * path[slot].rayLength;
-        float cosine = dotProduct(path[slot].surfaceNormal, path[slot].rayDirection);
+void addLight(const Answer answer) {
+    bool isVisible = answer.hit.primitive == noPrimitive;
+    bool isDimmed = hasDielectric && answer.isDimmed;
+    traceEvent(traceVisibility, isVisible ? (isDimmed ? visibilityDimmed : visibilityClear) : visibilityBlocked,
+               vec3(path.lightIndex));
+    if (isVisible) {
+        LightRecord light = lightAt(path.lightIndex);
+        float squaredDistance = answer.hit.distance * answer.hit.distance;
+        float cosine = dotProduct(path.vertex.surface.normal, request.ray.direction);
         bool isDirectional = (lighting & lightsByDirections) != 0u && light.kind == lightDirectional;
         vec3 irradiance = light.intensity * (isDirectional ? cosine : divide(cosine, squaredDistance));
         if ((lighting & lightsBySpots) != 0u && light.kind == lightSpot)
-            irradiance *= spotFalloff(path[slot].rayDirection, light.axis, light.cosineOuter, light.falloffScale);
-        vec3 reflected = path[slot].surfaceWeight * irradiance;
+            irradiance *= spotFalloff(request.ray.direction, light.axis, light.cosineOuter, light.falloffScale);
+        vec3 reflected = path.lightWeight * irradiance;
         if (isDimmed)
             reflected *= frame.shadowThroughGlass;
-        path[slot].sampleRadiance = path[slot].sampleRadiance + reflected;
-        traceEvent(slot, traceRadiance, 0u, path[slot].sampleRadiance);
+        addRadiance(reflected);
     }
-    path[slot].lightIndex += 1u;
-    path[slot].stage = stageNextLight;
-    if (path[slot].lightIndex == lightCount)
-        endPath(slot);
+    goToNextLight();
 }
 
-// Follows rays until they hit a diffuse surface or leave the scene.
-void followPaths() {
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (hasDielectric && path[slot].stage == stageNextRay)
-            takePendingRay(slot);
-    traceRays();
-}
+uint stepsOfTurn() { return 0u; }
 
-void advancePaths() {
-    bool takesOnePass = !hasSpecular && lightCount <= 1u; // no loop is needed
-    do {
-        do
-            followPaths();
-        while (hasSpecular && isAtStageUpTo(stageClosest) && stepsTaken < dispatch.stepBudget);
-        lightSurfaces();
-        stepsTaken += 1u;
-    } while (!takesOnePass && isAtStageUpTo(stageShadow) && stepsTaken < dispatch.stepBudget);
-}
+#include "shaders/drive/drive.glsl"
 
 void main() { integrate(); }

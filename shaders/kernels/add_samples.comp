@@ -5,14 +5,12 @@
 
 #define RAYS 1
 #include "shaders/kernels/begin_kernel.glsl"
-const bool hasBounces = true;
 
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/math/vector.glsl"
 #include "shaders/math/sums.glsl"
 #include "shaders/drive/lanes.glsl"
-#include "shaders/drive/slots.glsl"
-#include "shaders/integrators/alpha.glsl"
+#include "shaders/drive/places.glsl"
 
 layout(set = 0, binding = bindingFilm, std430) buffer FilmPixelBuffer { FilmPixel filmPixels[]; };
 layout(set = 0, binding = bindingSamples, std430) buffer SampleBuffer { SampleRecord samples[]; };

@@ -7,16 +7,16 @@
 
 const bool lightPassesGlass = hasDielectric;
 const bool raysHaveTargets = false;
-const bool hasBounces = false;
 
 #include "shaders/memory/scene_data.glsl"
+#include "shaders/memory/counters.glsl"
 #include "shaders/math/arithmetic.glsl"
 #include "shaders/leaves.glsl"
 #include "shaders/trace/preloaded.glsl"
-#include "shaders/drive/lanes.glsl"
-#include "shaders/drive/slots.glsl"
-#include "shaders/trace/any_hit.glsl"
+#include "shaders/trace/ray.glsl"
 #include "shaders/trace/trace.glsl"
+#include "shaders/drive/lanes.glsl"
+#include "shaders/drive/places.glsl"
 
 layout(constant_id = constantIsAnyHit) const bool isAnyHit = false;
 
@@ -46,56 +46,49 @@ void storeHit(uint index, HitRecord hit) {
     hitRows[index] = uvec4(hit.primitive, floatBitsToUint(vec3(hit.distance, hit.u, hit.v)));
 }
 
-// The slot of a ray is its index; workgroups are in the same order as in shaders/drive/slots.glsl.
-void beginRay(uint slot) {
+bool takesPart[RAYS];
+
+// A ray's place is its index; workgroups are in the same order as in shaders/drive/places.glsl.
+void beginRay(uint i) {
     uint lanes = blockOfWorkgroup() * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-    slotIndex[slot] = (lanes >> 3u) * (8u * RAYS) + slot * 8u + (lanes & 7u);
-    isSlotUsed[slot] = slotIndex[slot] < slotCount();
-    RayRecord ray = fetchRay(isSlotUsed[slot] ? slotIndex[slot] : 0u);
-    path[slot].rayOrigin = ray.origin;
-    path[slot].rayDirection = ray.direction;
-    path[slot].rayLength = ray.maxDistance;
-    path[slot].rayExcluded = ray.excluded;
-    path[slot].rayDepth = 1u; // with the next two: decides about alpha-tested surfaces
-    path[slot].sampleIndex = 0u;
-    imagePixel[slot] = uvec2(0u);
-    path[slot].hitPrimitive = noPrimitive;
-    path[slot].hitU = 0.0;
-    path[slot].hitV = 0.0;
-    path[slot].isLightDimmed = 0u;
-    path[slot].stackSize = 0u;
-    if (isSlotUsed[slot]) {
-        path[slot].stage = isAnyHit ? stageShadow : stageClosest;
-        enterTree(slot);
-    } else {
-        path[slot].stage = stageDone;
-        stopTraversal(slot);
-    }
+    uint index = (lanes >> 3u) * (8u * RAYS) + i * 8u + (lanes & 7u);
+    slotIndex[i] = index;
+    takesPart[i] = index < pathCount();
+    RayRecord ray = fetchRay(takesPart[i] ? index : 0u);
+    traversal[i].ray = Ray(ray.origin, ray.maxDistance, ray.direction, ray.excluded, noPrimitive);
+    traversal[i].key = RayKey(uvec2(0u), 0u, isAnyHit ? 3u : 2u);
+    traversal[i].hit = Hit(ray.maxDistance, noPrimitive, noPrimitive, 0.0, 0.0, noInstance);
+    traversal[i].isDimmed = false;
+    traversal[i].stackIndex = index;
+    traversal[i].stackSize = 0u;
+    if (takesPart[i])
+        enterTree(i);
+    else
+        stopTraversal(i);
 }
 
-void endRay(uint slot) {
-    if (!isSlotUsed[slot])
+void endRay(uint i) {
+    if (!takesPart[i])
         return;
-    bool isHit = path[slot].hitPrimitive != noPrimitive;
+    Hit found = traversal[i].hit;
+    bool isHit = found.primitive != noPrimitive;
     HitRecord hit = HitRecord(noPrimitive, 0.0, 0.0, 0.0);
     if (isHit && isAnyHit)
         hit.primitive = hitAnything;
     else if (isHit)
-        hit = HitRecord(path[slot].hitPrimitive, path[slot].rayLength, path[slot].hitU, path[slot].hitV);
+        hit = HitRecord(found.primitive, found.distance, found.u, found.v);
     // An unfinished ray is marked: its budget is spent, or lavapipe has ended the loop silently at its own limit.
-    if (isTraversing(slot) || stackOverflowCount != 0u)
+    if (isTraversing(i) || stackOverflowCount != 0u)
         hit.primitive = hitUnknown;
-    storeHit(slotIndex[slot], hit);
+    storeHit(slotIndex[i], hit);
 }
 
 void main() {
     loadConstants();
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        beginRay(slot);
+    EACH_RAY(i, beginRay(i);)
     if (isAnyHit)
-        traverse(stageShadow, true);
+        advance(takesPart, true);
     else
-        traverse(stageClosest, false);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        endRay(slot);
+        advance(takesPart, false);
+    EACH_RAY(i, endRay(i);)
 }

@@ -316,7 +316,7 @@ struct LookupRow {
 // - from firstCoordinateRow, rowsPerTriangle() rows for each triangle record: texture coordinates, u and v of v0 and
 //   v1, then of v2; and where constantTexturing asks for them, second texture coordinates alike, then a row with the
 //   colour of each corner, then one with the tangent of each corner;
-// - for each material with textures, a TextureRecord for each slot;
+// - for each material with textures, a TextureRecord for each of its parameters (slot...);
 // - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
 //   green, blue and alpha from the lowest bits up.
 struct TextureRow {
@@ -334,7 +334,7 @@ const uint rowsPerCoordinates = 2u;
 
 struct TextureRecord {
     uint firstRow; // of its texels
-    uint size;     // of the image in pixels: width + height * 2^16; 0: the slot has no texture
+    uint size;     // of the image in pixels: width + height * 2^16; 0: there is no texture
     uint format;   // bits of textureIs...
     float factor;  // on roughness and metallic; of a normal map its strength
     float scaleU;  // coordinates are multiplied by scale, then moved by offset
@@ -580,9 +580,9 @@ struct FrameRecord {
 
 // ---- Dispatch constants
 //
-// A dispatch works on one tile of the film, with `samplesInFlight` path slots for each pixel. `stepBudget` bounds the
-// loop iterations of a slot, and `workBudget` the work of all slots together: a slot that starts after it is spent
-// makes only one pass. Unfinished slots wait in the path buffer for a dispatch with `isResumed` set.
+// A dispatch works on one tile of the film, with `samplesInFlight` paths for each pixel. `stepBudget` bounds the
+// loop iterations of a path, and `workBudget` the work of all paths together: one that starts after it is spent
+// makes only one pass. Unfinished ones wait in the path buffer for a dispatch with `isResumed` set.
 struct DispatchConstants {
     uint cropX; // pixel of the whole image where the film begins, unless it is gathered
     uint cropY;
@@ -601,7 +601,7 @@ struct DispatchConstants {
     uint interleave;
     uint traceCapacity;  // events in the trace buffer
     uint workBudget;     // of DispatchProgress::workDone
-    uint samplesPerSlot; // the mean number that a slot takes one after another
+    uint samplesPerSlot; // the mean number that are taken one after another
     uint isGathered;     // 1: the film's pixels are from anywhere in the image
     uint pad0;
     uint pad1;
@@ -656,7 +656,7 @@ const uint lightStateWords = 23u; // of a path that waits, beside three for each
 // as `radiance.x`.
 struct SampleRecord {
     vec3 radiance;
-    uint finished; // 0: it is not; else the counts of its rays (shaders/drive/slots.glsl)
+    uint finished; // 0: it is not; else the counts of its rays (shaders/drive/places.glsl)
 };
 
 const uint bitsPerCount = 7u; // at most maxPathDepth of each
@@ -713,16 +713,7 @@ struct TraceEvent {
     uint pad0;
 };
 
-// ---- Path slots, as they wait between two dispatches
-
-const uint stageNextSample = 0u; // begin the next sample
-const uint stageNextRay = 1u;    // take the next pending ray, or end the sample
-const uint stageNewRay = 2u;     // a ray is ready to be traced
-const uint stageClosest = 3u;    // tracing for the nearest hit
-const uint stageNextLight = 4u;  // on a diffuse surface: aim at the next light
-const uint stageShadow = 5u;     // tracing for any hit between the surface and the light
-const uint stageSampleDone = 6u; // waits for the samples of the pixel's other slots
-const uint stageDone = 7u;       // all samples of the pixel are in the film
+// ---- Paths, as they wait between two dispatches
 
 const uint seenFromBehind = 0x80000000u; // against the normal of the input
 
@@ -794,7 +785,7 @@ const uint constantHasSpecular = 3u; // mirrors or dielectrics
 const uint constantHasDielectric = 4u;
 const uint constantSampler = 5u;
 const uint constantStackSize = 6u;
-const uint constantIsTracing = 7u;       // path slot 0 writes into the trace buffer
+const uint constantIsTracing = 7u;       // path 0 writes into the trace buffer
 const uint constantExactDivision = 8u;   // the device's own / and sqrt are correctly rounded
 const uint constantSamplesInFlight = 9u; // slots of one pixel: a power of two, at most the subgroup's size
 const uint constantIsResumable = 10u;    // unfinished slots wait in the path buffer
@@ -815,7 +806,7 @@ const uint constantHasLightTree = 24u;
 const uint constantInfiniteEmitters = 25u; // of a scene with a light tree: emitters that are not in it
 const uint constantAnyHit = 26u;
 const uint constantTrianglePairs = 27u;    // skip lists: all triangles in turn, as so many pairs; 0: the tree
-const uint constantPathRegeneration = 28u; // slots go from sample to sample: regeneration.glsl
+const uint constantPathRegeneration = 28u; // slots go from sample to sample: path_regeneration.glsl
 const uint constantBroadcasts = 29u;       // subgroups of broadcastLanes exchange values by broadcasts
 const uint constantHasPairs = 30u;         // skip lists: leaves may be pairs of triangles
 const uint constantHasNormals = 31u;       // of corners of triangles

@@ -36,6 +36,7 @@ layout(constant_id = constantCamera) const uint camera = cameraPinhole;
 layout(constant_id = constantTexturing) const uint texturing = 0u;
 layout(constant_id = constantAnyHit) const uint anyHit = 0u;
 layout(constant_id = constantAlpha) const uint alphaKind = alphaOfNothing;
+const bool hasAlpha = alphaKind != alphaOfNothing;
 layout(constant_id = constantTrianglePairs) const uint trianglePairs = 0u;
 layout(constant_id = constantPathRegeneration) const bool regeneratesPaths = false;
 layout(constant_id = constantBroadcasts) const bool exchangesByBroadcast = false;
@@ -57,3 +58,5 @@ void loadConstants() {
     frame = frameConstants;
     dispatch = dispatchConstants;
 }
+
+uint pathCount() { return dispatch.tileWidth * dispatch.tileHeight * samplesInFlight; } // of the tile

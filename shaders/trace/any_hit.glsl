@@ -1,7 +1,6 @@
-// Shared by all traversals: the position of a ray in the tree, and the test of a triangle. A ray passes triangles that
-// are culled, and points of alpha-tested ones, as if they were not there.
-
-bool isTraversing(uint slot) { return path[slot].cursorNode != noNode || path[slot].cursorTriangle != noNode; }
+// The test of a triangle, for all traversals. A ray passes triangles that are culled, and points of alpha-tested ones,
+// as if they were not there. isVisibility: any opaque hit ends a ray, and glass only dims; otherwise the nearest hit is
+// found.
 
 // A candidate hit on a triangle or sphere of the tree, before its alpha test.
 struct Candidate {
@@ -16,24 +15,25 @@ struct Candidate {
 
 // The candidate of a hit on a primitive. It does not count if the face is culled, or if the hit is not nearer than the
 // current one (shadow ray: than its end). `record` and `instance` are where the primitive comes from.
-Candidate candidateOf(uint slot, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
-                  const bool isShadow) {
+Candidate candidateOf(uint i, TriangleHit hit, uint id, uint record, uint instance, uint flags, uint materialIndex,
+                  const bool isVisibility) {
     bool isMet = hit.distance > 0.0;
     if ((anyHit & anyHitCulled) != 0u)
         isMet = isMet && !(hit.isBehind && (flags & triangleIsCulled) != 0u);
-    if (isShadow)
-        isMet = isMet && hit.distance < path[slot].rayLength && !(raysHaveTargets && path[slot].rayTarget == id);
+    if (isVisibility)
+        isMet = isMet && hit.distance < traversal[i].hit.distance &&
+                !(raysHaveTargets && traversal[i].ray.target == id);
     else
-        isMet = isMet && (hit.distance < path[slot].rayLength ||
-                          (hit.distance == path[slot].rayLength && id < path[slot].hitPrimitive));
+        isMet = isMet && (hit.distance < traversal[i].hit.distance ||
+                          (hit.distance == traversal[i].hit.distance && id < traversal[i].hit.primitive));
     return Candidate(isMet, hit, id, record, instance, flags, materialIndex);
 }
 
 // Tests a triangle in world space.
-Candidate testTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
-                     const bool isShadow) {
+Candidate testTriangle(uint i, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
+                     const bool isVisibility) {
     uint id = triangle.primitiveId;
-    bool isExcluded = id == path[slot].rayExcluded;
+    bool isExcluded = id == traversal[i].ray.excluded;
     bool isSphere = treeSpheres == treeHasSpheresOnly ||
                     (treeSpheres == treeHasSpheresToo && (triangle.flags & triangleIsSphere) != 0u);
     TriangleHit hit = TriangleHit(0.0, 0.0, 0.0, false);
@@ -43,53 +43,53 @@ Candidate testTriangle(uint slot, uint record, uint instance, TriangleRecord tri
     }
     if (treeSpheres != treeHasTriangles && isSphere) {
         hit.distance =
-            intersectBoxedSphere(boxRay, path[slot].rayDirection, triangle.v0, triangle.v1.x, isExcluded);
+            intersectBoxedSphere(boxRay, traversal[i].ray.direction, triangle.v0, triangle.v1.x, isExcluded);
         record = id;
     }
-    return candidateOf(slot, hit, id, record, instance, triangle.flags, triangle.materialIndex, isShadow);
+    return candidateOf(i, hit, id, record, instance, triangle.flags, triangle.materialIndex, isVisibility);
 }
 
-bool needsAlphaTest(Candidate candidate) {
+bool needsAlphaTest(const Candidate candidate) {
     return (anyHit & anyHitAlpha) != 0u && candidate.isMet && (candidate.flags & triangleIsAlphaTested) != 0u;
 }
 
 // Whether the ray passes the alpha-tested triangle that it meets.
-bool failsAlphaTest(uint slot, Candidate candidate, const bool isShadow) {
+bool failsAlphaTest(uint i, const Candidate candidate) {
     float choice = 0.0;
     if ((anyHit & anyHitBlended) != 0u)
-        choice = alphaTestNumber(imagePixel[slot], frame.seed, path[slot].sampleIndex,
-                             2u * path[slot].rayDepth + (isShadow ? 1u : 0u), candidate.primitiveId);
+        choice = alphaTestNumber(traversal[i].key.pixel, frame.seed, traversal[i].key.sampleIndex,
+                                 traversal[i].key.number, candidate.primitiveId);
     return isPassed(candidate.materialIndex, candidate.record, candidate.hit.u, candidate.hit.v, choice);
 }
 
-// Records what is met. isShadow: an opaque hit ends the search and returns true, and glass only dims; otherwise the
+// Records what is met. isVisibility: an opaque hit ends the search and returns true, and glass only dims; otherwise the
 // nearest hit is kept.
-bool commitHit(uint slot, Candidate candidate, const bool isShadow) {
-    if (isShadow) {
+bool commitHit(uint i, const Candidate candidate, const bool isVisibility) {
+    if (isVisibility) {
         bool isTransmissive = lightPassesGlass && (candidate.flags & triangleIsTransmissive) != 0u;
         if (candidate.isMet && isTransmissive)
-            path[slot].isLightDimmed = 1u;
+            traversal[i].isDimmed = true;
         bool isBlocked = candidate.isMet && !isTransmissive;
         if (isBlocked)
-            path[slot].hitPrimitive = candidate.primitiveId;
+            traversal[i].hit.primitive = candidate.primitiveId;
         return isBlocked;
     }
     if (candidate.isMet) {
-        path[slot].rayLength = candidate.hit.distance;
-        path[slot].hitU = candidate.hit.u;
-        path[slot].hitV = candidate.hit.v;
-        path[slot].hitPrimitive = candidate.primitiveId;
-        path[slot].hitRecord = candidate.record;
-        path[slot].hitInstance = candidate.instance;
+        traversal[i].hit.distance = candidate.hit.distance;
+        traversal[i].hit.u = candidate.hit.u;
+        traversal[i].hit.v = candidate.hit.v;
+        traversal[i].hit.primitive = candidate.primitiveId;
+        traversal[i].hit.record = candidate.record;
+        traversal[i].hit.instance = candidate.instance;
     }
     return false;
 }
 
 // All three in one.
-bool meetTriangle(uint slot, uint record, uint instance, TriangleRecord triangle, TriangleRay ray, BoxRay boxRay,
-                  const bool isShadow) {
-    Candidate candidate = testTriangle(slot, record, instance, triangle, ray, boxRay, isShadow);
-    if (needsAlphaTest(candidate) && failsAlphaTest(slot, candidate, isShadow))
+bool meetTriangle(uint i, uint record, uint instance, TriangleRecord triangle, TriangleRay ray,
+                  BoxRay boxRay, const bool isVisibility) {
+    Candidate candidate = testTriangle(i, record, instance, triangle, ray, boxRay, isVisibility);
+    if (needsAlphaTest(candidate) && failsAlphaTest(i, candidate))
         candidate.isMet = false;
-    return commitHit(slot, candidate, isShadow);
+    return commitHit(i, candidate, isVisibility);
 }

@@ -2,40 +2,45 @@
 // ray goes through, which takes arithmetic alone, and then these by the test of the tree's leaves, which gives the same
 // bits.
 
-void traverseList(uint stage, const bool isShadow) {
-    BoxRay boxRay[RAYS];
-    TriangleRay triangleRay[RAYS];
-    bool isMine[RAYS];
-    uint candidates[RAYS]; // a bit for each triangle
-    bool isRunning = false;
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        isMine[slot] = path[slot].stage == stage && isTraversing(slot);
-        boxRay[slot] =
-            makeBoxRay(path[slot].rayOrigin, path[slot].rayDirection, frame.boundsLower, frame.boundsUpper);
-        triangleRay[slot] = makeTriangleRay(path[slot].rayOrigin, path[slot].rayDirection);
-        candidates[slot] = 0u;
-        [[unroll]] for (uint i = 0u; i < trianglePairs; ++i)
-            candidates[slot] |=
-                trianglesOnRay(triangleRay[slot], boxRay[slot].pad, path[slot].rayLength, listedPairs[i]);
-        candidates[slot] = isMine[slot] ? candidates[slot] : 0u;
-        countSlot(slot, isMine[slot], uvec3(0u, 0u, frame.triangleCount));
+struct ListWalk {
+    BoxRay box;
+    TriangleRay triangle;
+    uint candidates; // a bit for each triangle
+};
+
+ListWalk listWalks[RAYS];
+
+void beginListWalk(uint i, bool takesPart) {
+    BoxRay box = makeBoxRay(traversal[i].ray.origin, traversal[i].ray.direction, frame.boundsLower, frame.boundsUpper);
+    TriangleRay triangle = makeTriangleRay(traversal[i].ray.origin, traversal[i].ray.direction);
+    uint candidates = 0u;
+    [[unroll]] for (uint pair = 0u; pair < trianglePairs; ++pair)
+        candidates |= trianglesOnRay(triangle, box.pad, traversal[i].hit.distance, listedPairs[pair]);
+    countBusyRay(takesPart);
+    countWork(i, takesPart, uvec3(0u, 0u, frame.triangleCount));
+    listWalks[i] = ListWalk(box, triangle, takesPart ? candidates : 0u);
+}
+
+// Returns whether candidates are left.
+bool testCandidate(uint i, const bool isVisibility) {
+    if (listWalks[i].candidates != 0u) {
+        uint record = uint(findLSB(listWalks[i].candidates));
+        listWalks[i].candidates &= listWalks[i].candidates - 1u;
+        if (meetTriangle(i, record, noInstance, fetchTriangle(record), listWalks[i].triangle, listWalks[i].box,
+                         isVisibility))
+            listWalks[i].candidates = 0u;
     }
+    return listWalks[i].candidates != 0u;
+}
+
+void advanceInList(bool takesPart[RAYS], const bool isVisibility) {
+    EACH_RAY(i, beginListWalk(i, takesPart[i]);)
     countPass();
+    bool isRunning;
     do {
         isRunning = false;
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (candidates[slot] != 0u) {
-                uint record = uint(findLSB(candidates[slot]));
-                candidates[slot] &= candidates[slot] - 1u;
-                if (meetTriangle(slot, record, noInstance, fetchTriangle(record), triangleRay[slot], boxRay[slot],
-                                 isShadow))
-                    candidates[slot] = 0u;
-            }
-            isRunning = isRunning || candidates[slot] != 0u;
-        }
+        EACH_RAY(i, isRunning = testCandidate(i, isVisibility) || isRunning;)
         stepsTaken += 1u;
     } while (isRunning); // at most maxListedTriangles times, whatever the step budget
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-        if (isMine[slot])
-            stopTraversal(slot);
+    EACH_RAY(i, if (takesPart[i]) stopTraversal(i);)
 }

@@ -1,9 +1,9 @@
 // The traversal for lavapipe: skip lists, without a stack (layout.h: SkipNode).
 //
 // On lavapipe an `if` skips no code, only the back edge of a loop branches, and a step costs the same for one lane as
-// for eight. The lanes of a subgroup follow samples of the same pixels and reach their leaves together. So all path
-// slots step until each is at a leaf, and then all test triangles until each has left its leaf. Traversal can stop
-// after any step: its state is the cursor and the nearest hit.
+// for eight. The lanes of a subgroup follow samples of the same pixels and reach their leaves together. So all rays
+// step until each is at a leaf, and then all test triangles until each has left its leaf. Traversal can stop after any
+// step: its state is the cursor and the nearest hit.
 //
 // An alpha test takes longer than several steps, and all lanes would pay for it with each triangle. So a ray with an
 // alpha-tested candidate waits until all others have come to their end or wait, too.
@@ -56,22 +56,22 @@ uint skipListFor(vec3 direction, InstanceRecord instance) {
     return skipListFor(turned);
 }
 
-void enterTree(uint slot) {
-    path[slot].cursorNode = skipListFor(path[slot].rayDirection) * frame.skipListLength;
-    path[slot].cursorTriangle = noNode;
-    path[slot].cursorInstance = noInstance;
+void enterTree(uint i) {
+    traversal[i].cursorNode = skipListFor(traversal[i].ray.direction) * frame.skipListLength;
+    traversal[i].cursorTriangle = noNode;
+    traversal[i].cursorInstance = noInstance;
 }
 
-void stopTraversal(uint slot) {
-    path[slot].cursorNode = noNode;
-    path[slot].cursorTriangle = noNode;
-    path[slot].cursorInstance = noInstance;
+void stopTraversal(uint i) {
+    traversal[i].cursorNode = noNode;
+    traversal[i].cursorTriangle = noNode;
+    traversal[i].cursorInstance = noInstance;
 }
 
 // Cursor of a ray in the tree, in signed integers, which CPUs compare faster.
 struct Cursor {
     int node;         // the next one to visit
-    int end;          // of its list; 0: the slot has no ray to trace
+    int end;          // of its list; 0: the ray takes no part
     int leaf;         // the link to the next triangles to test (SkipNode), or 0
     bool isSearching; // for the next leaf
     uint instance;    // whose tree it is in, or noInstance
@@ -144,22 +144,33 @@ void leaveTree(inout Cursor cursor, vec3 direction, int node) {
     cursor.instance = noInstance;
 }
 
+// A ray on its way, with what its tests need.
+struct SkipWalk {
+    BoxRay box;
+    TriangleRay triangle;
+    GridRay grid;        // where there are no instances
+    PlacedBoxRay placed; // where there are
+    InstanceRecord instance;
+    Cursor cursor;
+    Candidate waiting; // where the cursor waits, its alpha-tested candidate
+};
+
+SkipWalk walks[RAYS];
+
 // Tests the next triangle of a leaf, and moves the cursor past it.
-Candidate testNext(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
-                 const bool isShadow) {
-    uint record = uint(cursor.leaf) & ~leafFlag;
+Candidate testNext(uint i, const bool isVisibility) {
+    uint record = uint(walks[i].cursor.leaf) & ~leafFlag;
     TriangleRecord triangle = fetchTriangle(record);
-    cursor.leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : cursor.leaf + 1;
-    if (hasInstances && cursor.instance != noInstance)
-        triangle = placedTriangle(place, triangle);
-    return testTriangle(slot, record, cursor.instance, triangle, ray, boxRay, isShadow);
+    walks[i].cursor.leaf = (triangle.flags & triangleEndsLeaf) != 0u ? 0 : walks[i].cursor.leaf + 1;
+    if (hasInstances && walks[i].cursor.instance != noInstance)
+        triangle = placedTriangle(walks[i].instance, triangle);
+    return testTriangle(i, record, walks[i].cursor.instance, triangle, walks[i].triangle, walks[i].box, isVisibility);
 }
 
 // testNext where leaves may be pairs. The corners are fetched in the order in which the pair has them. Where the line
 // of the ray goes through both triangles, the second one is tested again by itself: the cursor moves to it.
-Candidate testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, TriangleRay ray, BoxRay boxRay,
-                     const bool isShadow) {
-    uint leaf = uint(cursor.leaf);
+Candidate testNextPair(uint i, const bool isVisibility) {
+    uint leaf = uint(walks[i].cursor.leaf);
     bool isPair = isPairOfTriangles(leaf);
     uint record = leafRecordOf(leaf);
     uint corner = firstCornerOf(leaf);
@@ -178,139 +189,157 @@ Candidate testNextPair(uint slot, inout Cursor cursor, InstanceRecord place, Tri
     JoinedTriangles pair = JoinedTriangles(uintBitsToFloat(begin.xyz), uintBitsToFloat(end.xyz),
                                            uintBitsToFloat(apex.xyz), uintBitsToFloat(apexOfSecond.xyz), corner,
                                            secondCorner);
-    if (hasInstances && cursor.instance != noInstance) {
-        pair.begin = placedPoint(place, pair.begin);
-        pair.end = placedPoint(place, pair.end);
-        pair.firstApex = placedPoint(place, pair.firstApex);
-        pair.secondApex = placedPoint(place, pair.secondApex);
-        id += place.firstPrimitive;
+    if (hasInstances && walks[i].cursor.instance != noInstance) {
+        pair.begin = placedPoint(walks[i].instance, pair.begin);
+        pair.end = placedPoint(walks[i].instance, pair.end);
+        pair.firstApex = placedPoint(walks[i].instance, pair.firstApex);
+        pair.secondApex = placedPoint(walks[i].instance, pair.secondApex);
+        id += walks[i].instance.firstPrimitive;
     }
-    bool takesSecond = isPair && id + 1u != path[slot].rayExcluded;
-    PairHit found = intersectPair(ray, boxRay, pair, id != path[slot].rayExcluded, takesSecond);
+    bool takesSecond = isPair && id + 1u != traversal[i].ray.excluded;
+    PairHit found = intersectPair(walks[i].triangle, walks[i].box, pair, id != traversal[i].ray.excluded, takesSecond);
     bool endsLeaf = isPair || (flags & triangleEndsLeaf) != 0u;
-    cursor.leaf = found.isBoth ? int(leafFlag | (record + 1u)) : (endsLeaf ? 0 : cursor.leaf + 1);
+    walks[i].cursor.leaf = found.isBoth ? int(leafFlag | (record + 1u)) : (endsLeaf ? 0 : walks[i].cursor.leaf + 1);
     uint further = found.isSecond ? 1u : 0u;
-    return candidateOf(slot, found.hit, id + further, record + further, cursor.instance, flags, materialIndex,
-                       isShadow);
+    return candidateOf(i, found.hit, id + further, record + further, walks[i].cursor.instance, flags, materialIndex,
+                       isVisibility);
 }
 
-// `waiting` gets the alpha-tested triangles that rays meet. These rays have stopped on the way.
-void traverseTree(uint stage, const bool isShadow, inout Candidate waiting[RAYS]) {
-    GridRay gridRay[RAYS];
-    PlacedBoxRay placedRay[RAYS];
-    InstanceRecord instance[RAYS];
-    BoxRay boxRay[RAYS];
-    TriangleRay triangleRay[RAYS];
-    Cursor cursor[RAYS];
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        vec3 origin = path[slot].rayOrigin;
-        vec3 direction = path[slot].rayDirection;
-        boxRay[slot] = makeBoxRay(origin, direction, frame.boundsLower, frame.boundsUpper);
-        triangleRay[slot] = makeTriangleRay(origin, direction);
-        if (hasInstances)
-            placedRay[slot] = makeTopRay(boxRay[slot]);
+void beginWalk(uint i, bool takesPart) {
+    vec3 direction = traversal[i].ray.direction;
+    walks[i].box = makeBoxRay(traversal[i].ray.origin, direction, frame.boundsLower, frame.boundsUpper);
+    walks[i].triangle = makeTriangleRay(traversal[i].ray.origin, direction);
+    if (hasInstances)
+        walks[i].placed = makeTopRay(walks[i].box);
+    else
+        walks[i].grid = makeGridRay(traversal[i].ray.origin, walks[i].box);
+    bool isMine = takesPart && isTraversing(i);
+    bool isAtLeaf = traversal[i].cursorTriangle != noNode;
+    walks[i].cursor.node = isMine ? int(traversal[i].cursorNode) : 0;
+    walks[i].cursor.end = isMine ? topEnd(direction) : 0;
+    walks[i].cursor.leaf = isMine && isAtLeaf ? int(traversal[i].cursorTriangle | leafFlag) : 0;
+    walks[i].cursor.instance = noInstance;
+    walks[i].cursor.isWaiting = false;
+    if (hasInstances && isMine && traversal[i].cursorInstance != noInstance) {
+        walks[i].cursor.instance = traversal[i].cursorInstance;
+        walks[i].cursor.following = int(traversal[i].cursorReturn);
+        walks[i].instance = fetchInstance(walks[i].cursor.instance);
+        walks[i].placed = makeInstanceRay(walks[i].box, walks[i].instance);
+        walks[i].cursor.end =
+            int(skipListFor(direction, walks[i].instance) * frame.skipListLength + walks[i].instance.listEnd);
+    }
+}
+
+// Returns whether the ray searches on for its next leaf.
+bool seekLeaf(uint i) {
+    countBusyRay(walks[i].cursor.isSearching);
+    countWork(i, walks[i].cursor.isSearching, uvec3(1u, 1u, 0u));
+    visitNode(walks[i].cursor, walks[i].grid, walks[i].placed, traversal[i].hit.distance);
+    return walks[i].cursor.isSearching;
+}
+
+// Enters the instance that the ray has found, if it has.
+void enterFound(uint i) {
+    if (!hasInstances || !isInstance(uint(walks[i].cursor.leaf)))
+        return;
+    walks[i].cursor.instance = instanceOf(uint(walks[i].cursor.leaf));
+    walks[i].instance = fetchInstance(walks[i].cursor.instance);
+    walks[i].placed = makeInstanceRay(walks[i].box, walks[i].instance);
+    enterInstance(walks[i].cursor, traversal[i].ray.direction, walks[i].instance);
+}
+
+// Returns whether the ray has more triangles of its leaf to test.
+bool testLeaf(uint i, const bool isVisibility) {
+    bool isBusy = isAtTriangle(walks[i].cursor);
+    countBusyRay(isBusy);
+    countWork(i, isBusy, uvec3(0u, 0u, hasPairs && isPairOfTriangles(uint(walks[i].cursor.leaf)) ? 2u : 1u));
+    if (isBusy) {
+        Candidate candidate;
+        if (hasPairs)
+            candidate = testNextPair(i, isVisibility);
         else
-            gridRay[slot] = makeGridRay(origin, boxRay[slot]);
-        bool isMine = path[slot].stage == stage && isTraversing(slot);
-        bool isAtLeaf = path[slot].cursorTriangle != noNode;
-        cursor[slot].node = isMine ? int(path[slot].cursorNode) : 0;
-        cursor[slot].end = isMine ? topEnd(direction) : 0;
-        cursor[slot].leaf = isMine && isAtLeaf ? int(path[slot].cursorTriangle | leafFlag) : 0;
-        cursor[slot].instance = noInstance;
-        cursor[slot].isWaiting = false;
-        if (hasInstances && isMine && path[slot].cursorInstance != noInstance) {
-            cursor[slot].instance = path[slot].cursorInstance;
-            cursor[slot].following = int(path[slot].cursorReturn);
-            instance[slot] = fetchInstance(cursor[slot].instance);
-            placedRay[slot] = makeInstanceRay(boxRay[slot], instance[slot]);
-            cursor[slot].end =
-                int(skipListFor(direction, instance[slot]) * frame.skipListLength + instance[slot].listEnd);
+            candidate = testNext(i, isVisibility);
+        if (needsAlphaTest(candidate)) {
+            walks[i].waiting = candidate;
+            walks[i].cursor.isWaiting = true;
+        } else if (commitHit(i, candidate, isVisibility)) {
+            leaveAll(walks[i].cursor, traversal[i].ray.direction);
         }
     }
+    return isAtTriangle(walks[i].cursor);
+}
+
+// Leaves an instance at its end. Returns whether the ray goes on.
+bool leaveFinished(uint i) {
+    if (isAtEndOfInstance(walks[i].cursor)) {
+        walks[i].placed = makeTopRay(walks[i].box);
+        leaveTree(walks[i].cursor, traversal[i].ray.direction, walks[i].cursor.following);
+    }
+    return walks[i].cursor.node < walks[i].cursor.end && canMove(walks[i].cursor);
+}
+
+void endWalk(uint i) {
+    if (walks[i].cursor.end == 0)
+        return;
+    bool isAtLeaf = walks[i].cursor.leaf != 0;
+    bool isDone = !isAtLeaf && walks[i].cursor.node >= walks[i].cursor.end;
+    traversal[i].cursorNode = isDone ? noNode : uint(walks[i].cursor.node);
+    traversal[i].cursorTriangle = isAtLeaf ? uint(walks[i].cursor.leaf) & ~leafFlag : noNode;
+    traversal[i].cursorInstance = walks[i].cursor.instance;
+    traversal[i].cursorReturn = uint(walks[i].cursor.following);
+}
+
+// Rays stop on their way at alpha-tested candidates, which wait in their walks.
+void advanceInTree(bool takesPart[RAYS], const bool isVisibility) {
+    EACH_RAY(i, beginWalk(i, takesPart[i]);)
     bool isRunning;
     do {
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            cursor[slot].isSearching = isBeforeLeaf(cursor[slot]);
+        EACH_RAY(i, walks[i].cursor.isSearching = isBeforeLeaf(walks[i].cursor);)
         bool isAnySearching;
         do {
             isAnySearching = false;
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                countSlot(slot, cursor[slot].isSearching, uvec3(1u, 1u, 0u));
-                visitNode(cursor[slot], gridRay[slot], placedRay[slot], path[slot].rayLength);
-                isAnySearching = isAnySearching || cursor[slot].isSearching;
-            }
+            EACH_RAY(i, isAnySearching = seekLeaf(i) || isAnySearching;)
             countPass();
             stepsTaken += 1u;
-        } while (isAnySearching && stepsTaken < dispatch.stepBudget);
-        if (hasInstances)
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-                if (isInstance(uint(cursor[slot].leaf))) {
-                    cursor[slot].instance = instanceOf(uint(cursor[slot].leaf));
-                    instance[slot] = fetchInstance(cursor[slot].instance);
-                    placedRay[slot] = makeInstanceRay(boxRay[slot], instance[slot]);
-                    enterInstance(cursor[slot], path[slot].rayDirection, instance[slot]);
-                }
+        } while (isAnySearching && hasStepsLeft());
+        EACH_RAY(i, enterFound(i);)
         do {
             isRunning = false;
-            [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-                uint triangles = hasPairs && isPairOfTriangles(uint(cursor[slot].leaf)) ? 2u : 1u;
-                countSlot(slot, isAtTriangle(cursor[slot]), uvec3(0u, 0u, triangles));
-                if (isAtTriangle(cursor[slot])) {
-                    Candidate candidate;
-                    if (hasPairs)
-                        candidate = testNextPair(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot],
-                                               isShadow);
-                    else
-                        candidate =
-                            testNext(slot, cursor[slot], instance[slot], triangleRay[slot], boxRay[slot], isShadow);
-                    if (needsAlphaTest(candidate)) {
-                        waiting[slot] = candidate;
-                        cursor[slot].isWaiting = true;
-                    } else if (commitHit(slot, candidate, isShadow)) {
-                        leaveAll(cursor[slot], path[slot].rayDirection);
-                    }
-                }
-                isRunning = isRunning || isAtTriangle(cursor[slot]);
-            }
+            EACH_RAY(i, isRunning = testLeaf(i, isVisibility) || isRunning;)
             countPass();
             stepsTaken += 1u;
-        } while (isRunning && stepsTaken < dispatch.stepBudget);
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (isAtEndOfInstance(cursor[slot])) {
-                placedRay[slot] = makeTopRay(boxRay[slot]);
-                leaveTree(cursor[slot], path[slot].rayDirection, cursor[slot].following);
-            }
-            isRunning = isRunning || (cursor[slot].node < cursor[slot].end && canMove(cursor[slot]));
-        }
+        } while (isRunning && hasStepsLeft());
+        EACH_RAY(i, isRunning = leaveFinished(i) || isRunning;)
         stepsTaken += 1u;
-    } while (isRunning && stepsTaken < dispatch.stepBudget);
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        if (cursor[slot].end == 0)
-            continue;
-        bool isAtLeaf = cursor[slot].leaf != 0;
-        bool isDone = !isAtLeaf && cursor[slot].node >= cursor[slot].end;
-        path[slot].cursorNode = isDone ? noNode : uint(cursor[slot].node);
-        path[slot].cursorTriangle = isAtLeaf ? uint(cursor[slot].leaf) & ~leafFlag : noNode;
-        path[slot].cursorInstance = cursor[slot].instance;
-        path[slot].cursorReturn = uint(cursor[slot].following);
-    }
+    } while (isRunning && hasStepsLeft());
+    EACH_RAY(i, endWalk(i);)
 }
 
-// The traversal of a scene with alpha tests.
-void traverseAlphaTestedTree(uint stage, const bool isShadow) {
+// Tests the candidate that waits. Returns whether the ray goes on.
+bool testWaiting(uint i, bool takesPart, const bool isVisibility) {
+    if (walks[i].cursor.isWaiting && !failsAlphaTest(i, walks[i].waiting) &&
+        commitHit(i, walks[i].waiting, isVisibility))
+        stopTraversal(i);
+    return takesPart && isTraversing(i);
+}
+
+void advanceWithAlphaTests(bool takesPart[RAYS], const bool isVisibility) {
     bool isAnyLeft;
     do {
-        Candidate waiting[RAYS];
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot)
-            waiting[slot].isMet = false;
-        traverseTree(stage, isShadow, waiting);
+        advanceInTree(takesPart, isVisibility);
         isAnyLeft = false;
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            if (waiting[slot].isMet && !failsAlphaTest(slot, waiting[slot], isShadow) &&
-                commitHit(slot, waiting[slot], isShadow))
-                stopTraversal(slot);
-            isAnyLeft = isAnyLeft || (path[slot].stage == stage && isTraversing(slot));
-        }
+        EACH_RAY(i, isAnyLeft = testWaiting(i, takesPart[i], isVisibility) || isAnyLeft;)
         stepsTaken += 2u; // and a loop in the lookup
-    } while (isAnyLeft && stepsTaken < dispatch.stepBudget);
+    } while (isAnyLeft && hasStepsLeft());
+}
+
+#include "shaders/trace/list.glsl"
+
+void advance(bool takesPart[RAYS], const bool isVisibility) {
+    if (trianglePairs > 0u)
+        advanceInList(takesPart, isVisibility);
+    else if ((anyHit & anyHitAlpha) != 0u)
+        advanceWithAlphaTests(takesPart, isVisibility);
+    else
+        advanceInTree(takesPart, isVisibility);
 }

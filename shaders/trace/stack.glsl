@@ -1,14 +1,13 @@
 // The portable traversal: an explicit stack over the node pairs, in storage buffers.
 //
-// It steps all path slots of an invocation together, because on a CPU two independent rays hide each other's latency. A
-// step visits at most one inner node and tests at most one triangle for each slot. Traversal can stop after any step:
+// A step visits at most one inner node and tests at most one triangle for each ray. Traversal can stop after any step:
 // cursor, nearest hit and stack outlive the dispatch.
 
-void pushSubtree(uint slot, uint subtree) {
-    uint size = path[slot].stackSize;
+void pushSubtree(uint i, uint subtree) {
+    uint size = traversal[i].stackSize;
     if (size < stackSize) {
-        stackEntries[size * slotCount() + slotIndex[slot]] = subtree;
-        path[slot].stackSize = size + 1u;
+        stackEntries[size * pathCount() + traversal[i].stackIndex] = subtree;
+        traversal[i].stackSize = size + 1u;
         if (isCounting)
             workCounts.w = max(workCounts.w, size + 1u);
     } else {
@@ -16,121 +15,130 @@ void pushSubtree(uint slot, uint subtree) {
     }
 }
 
-uint popSubtree(uint slot) {
-    uint size = path[slot].stackSize;
+uint popSubtree(uint i) {
+    uint size = traversal[i].stackSize;
     if (size == 0u)
         return noNode;
-    path[slot].stackSize = size - 1u;
-    return stackEntries[(size - 1u) * slotCount() + slotIndex[slot]];
+    traversal[i].stackSize = size - 1u;
+    return stackEntries[(size - 1u) * pathCount() + traversal[i].stackIndex];
 }
 
 // Enters a subtree, and on the way an instance, or leaves one.
-void enterSubtree(uint slot, uint subtree) {
+void enterSubtree(uint i, uint subtree) {
     if (hasInstances && subtree == leaveInstance) {
-        path[slot].cursorInstance = noInstance;
-        subtree = popSubtree(slot);
+        traversal[i].cursorInstance = noInstance;
+        subtree = popSubtree(i);
     }
     if (hasInstances && isInstance(subtree)) {
-        pushSubtree(slot, leaveInstance);
-        path[slot].cursorInstance = instanceOf(subtree);
-        subtree = fetchInstance(path[slot].cursorInstance).root;
+        pushSubtree(i, leaveInstance);
+        traversal[i].cursorInstance = instanceOf(subtree);
+        subtree = fetchInstance(traversal[i].cursorInstance).root;
     }
     bool isLeaf = subtree != noNode && (subtree & leafFlag) != 0u;
-    path[slot].cursorNode = isLeaf ? noNode : subtree;
-    path[slot].cursorTriangle = isLeaf ? subtree & ~leafFlag : noNode;
+    traversal[i].cursorNode = isLeaf ? noNode : subtree;
+    traversal[i].cursorTriangle = isLeaf ? subtree & ~leafFlag : noNode;
 }
 
-void enterTree(uint slot) {
-    path[slot].cursorInstance = noInstance;
-    enterSubtree(slot, 0u);
+void enterTree(uint i) {
+    traversal[i].cursorInstance = noInstance;
+    enterSubtree(i, 0u);
 }
 
-void stopTraversal(uint slot) {
-    path[slot].cursorNode = noNode;
-    path[slot].cursorTriangle = noNode;
-    path[slot].cursorInstance = noInstance;
-    path[slot].stackSize = 0u;
+void stopTraversal(uint i) {
+    traversal[i].cursorNode = noNode;
+    traversal[i].cursorTriangle = noNode;
+    traversal[i].cursorInstance = noInstance;
+    traversal[i].stackSize = 0u;
 }
 
 // The interval of a box, placed by `instance` if the cursor is in one.
-vec2 nodeInterval(uint slot, BoxRay ray, InstanceRecord instance, vec3 lower, vec3 upper) {
-    if (hasInstances && path[slot].cursorInstance != noInstance) {
+vec2 nodeInterval(uint i, BoxRay ray, InstanceRecord instance, vec3 lower, vec3 upper) {
+    if (hasInstances && traversal[i].cursorInstance != noInstance) {
         PlacedBoxRay placedRay = makePlacedBoxRay(ray, instance);
         return placedBoxInterval(placedRay, 0.5 * (lower + upper), 0.5 * (upper - lower));
     }
     return boxInterval(ray, lower, upper);
 }
 
-void visitNode(uint slot, BoxRay ray, InstanceRecord instance) {
-    NodePair node = fetchNode(path[slot].cursorNode);
-    countWork(slot, uvec3(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u), 0u));
-    vec2 left = nodeInterval(slot, ray, instance, node.leftLower, node.leftUpper);
-    vec2 right = nodeInterval(slot, ray, instance, node.rightLower, node.rightUpper);
-    bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, path[slot].rayLength);
-    bool isRightHit = node.right != noNode && right.x <= lesser(right.y, path[slot].rayLength);
+void visitNode(uint i, BoxRay ray, InstanceRecord instance) {
+    NodePair node = fetchNode(traversal[i].cursorNode);
+    countWork(i, true, uvec3(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u), 0u));
+    vec2 left = nodeInterval(i, ray, instance, node.leftLower, node.leftUpper);
+    vec2 right = nodeInterval(i, ray, instance, node.rightLower, node.rightUpper);
+    bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, traversal[i].hit.distance);
+    bool isRightHit = node.right != noNode && right.x <= lesser(right.y, traversal[i].hit.distance);
     bool isRightNearer = isRightHit && (!isLeftHit || right.x < left.x);
     uint nearer = isRightNearer ? node.right : node.left;
     if (isLeftHit && isRightHit)
-        pushSubtree(slot, isRightNearer ? node.left : node.right);
+        pushSubtree(i, isRightNearer ? node.left : node.right);
     if (!isLeftHit && !isRightHit)
-        nearer = popSubtree(slot);
-    enterSubtree(slot, nearer);
+        nearer = popSubtree(i);
+    enterSubtree(i, nearer);
 }
 
-void visitTriangle(uint slot, TriangleRay ray, BoxRay boxRay, InstanceRecord instance, const bool isShadow) {
-    uint record = path[slot].cursorTriangle;
-    uint instanceIndex = path[slot].cursorInstance;
+void visitTriangle(uint i, TriangleRay ray, BoxRay boxRay, InstanceRecord instance,
+                   const bool isVisibility) {
+    uint record = traversal[i].cursorTriangle;
+    uint instanceIndex = traversal[i].cursorInstance;
     TriangleRecord triangle = fetchTriangle(record);
     if (hasInstances && instanceIndex != noInstance)
         triangle = placedTriangle(instance, triangle);
-    countWork(slot, uvec3(0u, 0u, 1u));
+    countWork(i, true, uvec3(0u, 0u, 1u));
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)
-        next = popSubtree(slot);
-    enterSubtree(slot, isLast ? next : next | leafFlag);
-    if (meetTriangle(slot, record, instanceIndex, triangle, ray, boxRay, isShadow))
-        stopTraversal(slot);
+        next = popSubtree(i);
+    enterSubtree(i, isLast ? next : next | leafFlag);
+    if (meetTriangle(i, record, instanceIndex, triangle, ray, boxRay, isVisibility))
+        stopTraversal(i);
 }
 
-// Keeps `instance`, whose index is `loaded`, that of the cursor.
-void loadInstance(uint slot, inout uint loaded, inout InstanceRecord instance) {
-    uint index = path[slot].cursorInstance;
-    if (!hasInstances || index == noInstance || index == loaded)
+struct StackWalk {
+    BoxRay box;
+    TriangleRay triangle;
+    InstanceRecord instance;
+    uint loaded; // the index of `instance`
+};
+
+StackWalk walks[RAYS];
+
+void beginWalk(uint i) {
+    walks[i].box =
+        makeBoxRay(traversal[i].ray.origin, traversal[i].ray.direction, frame.boundsLower, frame.boundsUpper);
+    walks[i].triangle = makeTriangleRay(traversal[i].ray.origin, traversal[i].ray.direction);
+    walks[i].loaded = noInstance;
+}
+
+// Keeps the walk's instance that of the cursor.
+void loadInstance(uint i) {
+    uint index = traversal[i].cursorInstance;
+    if (!hasInstances || index == noInstance || index == walks[i].loaded)
         return;
-    instance = fetchInstance(index);
-    loaded = index;
+    walks[i].instance = fetchInstance(index);
+    walks[i].loaded = index;
 }
 
-// Traces the rays of all slots in `stage`, until all have left the tree or the step budget is spent. isShadow: any
-// opaque hit ends a ray, and glass only dims; otherwise the nearest hit is found.
-void traverse(uint stage, const bool isShadow) {
-    BoxRay boxRay[RAYS];
-    TriangleRay triangleRay[RAYS];
-    InstanceRecord instance[RAYS];
-    uint instanceIndex[RAYS]; // of `instance`
-    bool isRunning = false;
-    [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-        boxRay[slot] = makeBoxRay(path[slot].rayOrigin, path[slot].rayDirection, frame.boundsLower, frame.boundsUpper);
-        triangleRay[slot] = makeTriangleRay(path[slot].rayOrigin, path[slot].rayDirection);
-        instanceIndex[slot] = noInstance;
-        isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
+// Returns whether the ray goes on.
+bool stepWalk(uint i, bool takesPart, const bool isVisibility) {
+    countBusyRay(takesPart && isTraversing(i));
+    if (takesPart && traversal[i].cursorNode != noNode) {
+        loadInstance(i);
+        visitNode(i, walks[i].box, walks[i].instance);
     }
+    if (takesPart && traversal[i].cursorTriangle != noNode) {
+        loadInstance(i);
+        visitTriangle(i, walks[i].triangle, walks[i].box, walks[i].instance, isVisibility);
+    }
+    return takesPart && isTraversing(i);
+}
+
+void advance(bool takesPart[RAYS], const bool isVisibility) {
+    EACH_RAY(i, beginWalk(i);)
+    bool isRunning;
     do {
         isRunning = false;
-        [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) {
-            countSlot(slot, path[slot].stage == stage && isTraversing(slot), uvec3(0u));
-            if (path[slot].stage == stage && path[slot].cursorNode != noNode) {
-                loadInstance(slot, instanceIndex[slot], instance[slot]);
-                visitNode(slot, boxRay[slot], instance[slot]);
-            }
-            if (path[slot].stage == stage && path[slot].cursorTriangle != noNode) {
-                loadInstance(slot, instanceIndex[slot], instance[slot]);
-                visitTriangle(slot, triangleRay[slot], boxRay[slot], instance[slot], isShadow);
-            }
-            isRunning = isRunning || (path[slot].stage == stage && isTraversing(slot));
-        }
+        EACH_RAY(i, isRunning = stepWalk(i, takesPart[i], isVisibility) || isRunning;)
         countPass();
         stepsTaken += 1u;
-    } while (isRunning && stepsTaken < dispatch.stepBudget);
+    } while (isRunning && hasStepsLeft());
 }

@@ -1,17 +1,21 @@
-// The traversal of the tree: enterTree, stopTraversal, isTraversing, traverse.
+// Traversals. Each defines
+//
+//   void enterTree(uint i), void stopTraversal(uint i)           begin and end of the cursor of ray i
+//   void advance(bool takesPart[RAYS], const bool isVisibility)  takes rays on, several at once
+//
+// until all have left the tree, or no steps are left: it can stop after any step and go on in another dispatch. The
+// state of rays is in arrays that functions share (ray.glsl), and no parameter, because functions copy these.
+
+// A statement for each ray of an invocation. One ray has no loop, so that its state is in registers from the beginning.
+#if RAYS == 1
+#define EACH_RAY(i, statement) { const uint i = 0u; statement }
+#else
+#define EACH_RAY(i, statement) [[unroll]] for (uint i = 0u; i < RAYS; ++i) { statement }
+#endif
+
+#include "shaders/trace/any_hit.glsl"
 #if TRAVERSAL_SKIP_LIST
 #include "shaders/trace/skip_list.glsl"
-#include "shaders/trace/list.glsl"
-
-void traverse(uint stage, const bool isShadow) {
-    Candidate waiting[RAYS]; // never used
-    if (trianglePairs > 0u)
-        traverseList(stage, isShadow);
-    else if ((anyHit & anyHitAlpha) != 0u)
-        traverseAlphaTestedTree(stage, isShadow);
-    else
-        traverseTree(stage, isShadow, waiting);
-}
 #else
 #include "shaders/trace/stack.glsl"
 #endif

@@ -17,7 +17,7 @@ using glm::vec3;
 constexpr std::size_t raysAtOnce = 1024;
 constexpr float unbounded = std::numeric_limits<float>::max();
 
-/// Pixels in the order of the renderer's path slots (shaders/drive/slots.glsl).
+/// Pixels in the order of the renderer's path slots (shaders/drive/places.glsl).
 glm::uvec2 pixelOf(std::uint32_t index, std::uint32_t imageWidth) {
     const std::uint32_t block = index >> 6;
     const std::uint32_t k = index & 63u;
