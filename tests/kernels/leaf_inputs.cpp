@@ -384,7 +384,8 @@ const std::vector<InputRow> inputRows{
     {"vec2 uv0, vec2 uv1, vec2 uv2, vec2 first, vec2 second", by([](S &s) {
          return vec2{textureCoordinate(s.draw), textureCoordinate(s.draw)};
      })},
-    {"uint parameter, uint other, uint mapSlot", by([](S &s) { return s.draw.index(layout::textureSlotCount); })},
+    {"uint parameter, uint other, uint mapSlot",
+     by([](S &s) { return s.draw.index(layout::textureSlotCount); })},
     {"uint slots, uint textureSlots", by([](S &s) { return s.draw.chance(2) ? ~0u : s.draw.word(); })},
     {"uint textures", by([](S &s) { return s.some(s.packed.materials).textures; })},
     {"MaterialRecord texturedMaterial.material", by([](S &s) { return s.texturedMaterial(); })},
