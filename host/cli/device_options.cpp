@@ -30,7 +30,7 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
               "how kernels go through the tree (x2: two paths an invocation); auto: as `hyalite devices` "
               "says. The image "
               "is the same")
-        ->transform([](std::string word) { return presentKernelWord(word); });
+        ->transform(presentKernelWord);
     addNumber(command, "--max-dispatch-ms", options.maxDispatchMillis, dispatchMillis,
               "how long a dispatch on a Vulkan device should take, in milliseconds: long ones block a "
               "display, short ones cost more. The image is the same")
@@ -38,7 +38,7 @@ void addDeviceOptions(CLI::App &command, DeviceOptions &options) {
 }
 
 std::string presentKernelWord(const std::string &word) {
-    const std::string present(gpu::presentKernel(word));
+    std::string present(gpu::presentKernel(word));
     if (present != word)
         printMessage("note: the kernel {} is gone, as it was slower; {} is in its place\n", word, present);
     return present;

@@ -128,9 +128,8 @@ void print(const DeviceVerdict &verdict) {
 
 /// Throws Error{Usage} for a word that is none of a kernel.
 void requireKernels(const std::vector<std::string> &names) {
-    std::vector<std::string_view> words;
-    for (const gpu::KernelRow &row : gpu::kernelTable)
-        words.push_back(row.name);
+    std::vector<std::string_view> words(gpu::kernelTable.size());
+    std::ranges::transform(gpu::kernelTable, words.begin(), &gpu::KernelRow::name);
     for (const std::string &name : names)
         if (std::ranges::find(words, name) == words.end())
             refuseValue("--kernels", name, quotedList(words) + suggestion(name, words));

@@ -19,7 +19,6 @@
 #include <future>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <utility>
@@ -149,8 +148,9 @@ struct Renderer::State {
         if (hasStack(*wanted.kernel))
             return *wanted.kernel;
         std::string allowed;
-        for (const KernelRow &row : kernelTable | std::views::filter(hasStack))
-            allowed += fmt::format("{}, ", row.name);
+        for (const KernelRow &row : kernelTable)
+            if (row.hasStack)
+                allowed += fmt::format("{}, ", row.name);
         throw Error(ErrorKind::Usage,
                     fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "
                                 "allowed: {}or auto",
