@@ -16,7 +16,7 @@ uint finishedBounceCount = 0u;
 #else
 #define EACH_PATH(slot, statement) \
     [[unroll]] for (uint slot = 0u; slot < RAYS; ++slot) { \
-        slotOfPath = slot; \
+        activePath = slot; \
         statement \
     }
 #endif

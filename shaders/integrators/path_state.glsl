@@ -65,8 +65,8 @@ struct PathState {
 PathState path;
 #else
 PathState paths[RAYS];
-uint slotOfPath = 0u;
-#define path paths[slotOfPath]
+uint activePath = 0u;
+#define path paths[activePath]
 #endif
 Request request;
 

@@ -1,4 +1,4 @@
-// Everything that integrators use: leaf functions, memory, traversals, and the drive.
+// Everything that integrators use: leaf functions, memory, and traversals.
 #include "shaders/memory/scene_data.glsl"
 #include "shaders/memory/counters.glsl"
 #include "shaders/math/arithmetic.glsl"

@@ -316,7 +316,7 @@ struct LookupRow {
 // - from firstCoordinateRow, rowsPerTriangle() rows for each triangle record: texture coordinates, u and v of v0 and
 //   v1, then of v2; and where constantTexturing asks for them, second texture coordinates alike, then a row with the
 //   colour of each corner, then one with the tangent of each corner;
-// - for each material with textures, a TextureRecord for each of its parameters (slot...);
+// - for each material with textures, a TextureRecord for each of its parameters;
 // - the texels of the images, from the top row down: one a row, as floats; or four a row, with 8 bits each for red,
 //   green, blue and alpha from the lowest bits up.
 struct TextureRow {

@@ -160,7 +160,7 @@ vec3 lookUpTexture(uint row, SurfaceUv at) {
 
 uint textureRow(uint textures, uint parameter) { return textures + rowsPerTexture * parameter; }
 
-// Whether a material with textures has one for the parameter (slot...).
+// Whether a material with textures has one for this parameter.
 bool hasTexture(uint textures, uint parameter) { return textureWords(textureRow(textures, parameter)).y != 0u; }
 
 // Lookup of one number: a channel, times the factor of the texture.
