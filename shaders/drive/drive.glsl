@@ -190,13 +190,10 @@ void integrate() {
     do {
         EACH_PATH(slot, beginNext(slot);)
         advancePaths();
-        if (regeneratesPaths)
-            stepsTaken += 1u;
+        stepsTaken += 1u;
         EACH_PATH(slot, endRound(slot);)
-        if (!regeneratesPaths) {
-            stepsTaken += 1u;
+        if (!regeneratesPaths)
             isOutOfSteps = !isTrueForAllOfPixel(hasStepsLeft());
-        }
     } while (isAnyUpTo(stageSampleDone) && !isOutOfSteps);
     if (regeneratesPaths) {
         addWork(unfinishedCount);
