@@ -3,6 +3,7 @@
 
 #include "host/engine/open_backends.h"
 #include "host/engine/prepare.h"
+#include "tests/fixtures/temporary_folder.h"
 #include "tests/fixtures/test_extent.h"
 
 #include <gtest/gtest.h>
@@ -238,7 +239,8 @@ TEST(ApiScene, ReadsJson) {
 }
 
 TEST(ApiImage, IsSavedAndReadAgain) {
-    const std::string name = (std::filesystem::path(::testing::TempDir()) / "image").string();
+    const core::testing::TemporaryFolder folder;
+    const std::string name = folder.path / "image";
     const Image image = device().render(Scene::load("spheres"), tiny, {.layers = {"normal"}});
     image.save(name + ".exr");
     image.save(name + ".png", "aces");
@@ -261,7 +263,8 @@ TEST(ApiImage, KeepsAlphaInFilesThatHaveIt) {
     const std::vector<float> alpha{0.5f, 1.0f};
     const Image image(2, 1, pixels, alpha);
     EXPECT_TRUE(haveEqualBits(image.alpha(), alpha));
-    const std::string name = (std::filesystem::temp_directory_path() / "hyalite-alpha").string();
+    const core::testing::TemporaryFolder folder;
+    const std::string name = folder.path / "alpha";
     std::vector<std::string> warnings;
     SaveOptions options;
     options.warning = [&](const std::string &text) { warnings.push_back(text); };
@@ -281,8 +284,6 @@ TEST(ApiImage, KeepsAlphaInFilesThatHaveIt) {
     EXPECT_EQ(Image::load(name + ".exr").pixels()[4], 65504.0f);
     options.compression = "pizz";
     expectError(ErrorKind::Usage, "compression", [&] { image.save(name + ".exr", options); });
-    for (const char *extension : {".exr", ".png", ".hdr"})
-        std::filesystem::remove(name + extension);
     expectError(ErrorKind::Usage, "alpha", [&] { Image(2, 1, pixels, std::array<float, 3>{}); });
     EXPECT_TRUE(Image(2, 1, pixels).alpha().empty());
     const Difference difference = diff(image, Image(2, 1, pixels));

@@ -1,6 +1,7 @@
 #include "host/base/atomic_file.h"
 
 #include "host/base/error.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +25,6 @@ namespace fs = std::filesystem;
 /// A fresh folder for each test, removed after it. Every test runs with both kinds of temporary file.
 class AtomicFileTest : public ::testing::TestWithParam<TemporaryFile> {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "hyalite-atomic-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     [[nodiscard]] std::ptrdiff_t entryCount() const {
         return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
     }
@@ -44,7 +38,8 @@ class AtomicFileTest : public ::testing::TestWithParam<TemporaryFile> {
     }
     [[nodiscard]] AtomicFile open(const fs::path &path) const { return AtomicFile(path, GetParam()); }
 
-    fs::path folder;
+    const testing::TemporaryFolder temporary_;
+    const fs::path &folder = temporary_.path;
 };
 
 INSTANTIATE_TEST_SUITE_P(, AtomicFileTest, ::testing::Values(TemporaryFile::Automatic, TemporaryFile::Named),

@@ -16,17 +16,7 @@ namespace hyalite::core::testing {
 
 namespace fs = std::filesystem;
 
-void CommandLine::SetUp() {
-    hastenLavapipe();
-    std::string pattern = (fs::path(::testing::TempDir()) / "hyalite-cli-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr) << pattern;
-    folder = pattern;
-}
-
-void CommandLine::TearDown() {
-    std::error_code error;
-    fs::remove_all(folder, error);
-}
+void CommandLine::SetUp() { hastenLavapipe(); }
 
 Outcome CommandLine::run(const std::string &line) const { return runIn({}, line); }
 

@@ -4,6 +4,7 @@
 #include "host/image/image.h"
 #include "tests/cli/program.h"
 #include "tests/cli/words.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,6 @@ inline const std::string atOnce = " --time-limit 1e-6";
 class CommandLine : public ::testing::Test {
   protected:
     void SetUp() override;
-    void TearDown() override;
 
     /// `run("render spheres -o a.png")` runs the program in the folder.
     [[nodiscard]] Outcome run(const std::string &line) const;
@@ -46,7 +46,8 @@ class CommandLine : public ::testing::Test {
     /// The names in the folder, hidden ones too, except for that of the program's cache.
     [[nodiscard]] std::set<std::string> entries() const;
 
-    std::filesystem::path folder;
+    const TemporaryFolder temporary_;
+    const std::filesystem::path &folder = temporary_.path;
 };
 
 [[nodiscard]] bool contains(const std::string &text, const std::string &part);

@@ -2,6 +2,7 @@
 #include "host/cli/commands.h"
 #include "host/image/image_file.h"
 #include "tests/fixtures/synthetic_picture.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,9 +20,6 @@ namespace fs = std::filesystem;
 class DiffTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "hyalite-diff-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
         a = linearPicture(32, 24, 0);
         b = a;
         b.at(4, 5).x += 0.5f;
@@ -32,8 +30,6 @@ class DiffTest : public ::testing::Test {
         store("a.png", a);
         store("b.png", b);
     }
-    void TearDown() override { fs::remove_all(folder); }
-
     void store(const std::string &name, const Image &image) const {
         AtomicFile file(folder / name);
         writeImage(file, imageFormatOf(name), image, 0.0);
@@ -64,7 +60,8 @@ class DiffTest : public ::testing::Test {
         return static_cast<int>(context.exitCode);
     }
 
-    fs::path folder;
+    const testing::TemporaryFolder temporary_;
+    const fs::path &folder = temporary_.path;
     Image a;
     Image b;
     mutable std::string output;

@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,6 @@
 #include <fstream>
 #include <set>
 
-#include <stdlib.h>
 #include <sys/resource.h>
 
 namespace hyalite::core {
@@ -25,14 +25,6 @@ const RenderIdentity identity{{"seed", "7"}, {"sampler", "sobol"}};
 const CheckpointSubject subject{{2, 5, 1, 3}, {}, 100, {}};
 
 struct CheckpointTest : ::testing::Test {
-    void SetUp() override {
-        std::string name = (fs::path(::testing::TempDir()) / "hyalite-checkpoint-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-        path = folder / "c";
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     /// The message of the refusal, or nothing if there was none.
     [[nodiscard]] std::string refusal(const RenderIdentity &wanted = identity,
                                       const Crop &crop = {2, 5, 1, 3}, std::uint32_t samples = 100) const {
@@ -51,8 +43,9 @@ struct CheckpointTest : ::testing::Test {
         return names;
     }
 
-    fs::path folder;
-    fs::path path;
+    const testing::TemporaryFolder temporary_;
+    const fs::path &folder = temporary_.path;
+    const fs::path path = folder / "c";
 };
 
 /// Three pixels by two, with `sampleCount` samples each.

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/image/png.h"
 #include "host/image/tone_map.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -29,13 +30,6 @@ using namespace std::string_literals;
 
 class ImageFileTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "hyalite-image-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     [[nodiscard]] fs::path write(ImageFormat format, const Image &image, double exposureStops = 0.0) const {
         const fs::path path = folder / "written";
         AtomicFile file(path);
@@ -67,7 +61,8 @@ class ImageFileTest : public ::testing::Test {
         expectBad(store(bytes), found);
     }
 
-    fs::path folder;
+    const testing::TemporaryFolder temporary_;
+    const fs::path &folder = temporary_.path;
 };
 
 std::string load(const fs::path &path) {

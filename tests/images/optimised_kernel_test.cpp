@@ -1,5 +1,6 @@
 // Drivers optimise what we give them, each in its own way. spirv-opt stands for all of them: it inlines, folds,
 // reorders and removes, as far as SPIR-V allows it. What it makes of our kernels must compute the same bits.
+#include "tests/fixtures/temporary_folder.h"
 #include "tests/fixtures/test_extent.h"
 #include "tests/images/rendering.h"
 
@@ -9,8 +10,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -23,11 +22,9 @@ using Words = std::vector<std::uint32_t>;
 
 /// What `spirv-opt -O` makes of a kernel.
 Words optimise(std::span<const std::uint32_t> kernel) {
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-optimised-kernel-{}", getpid());
-    std::filesystem::create_directories(folder);
-    const std::filesystem::path before = folder / "before.spv";
-    const std::filesystem::path after = folder / "after.spv";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path before = folder.path / "before.spv";
+    const std::filesystem::path after = folder.path / "after.spv";
     const auto sizeBytes = [](std::size_t words) {
         return static_cast<std::streamsize>(words * sizeof(std::uint32_t));
     };
@@ -39,7 +36,6 @@ Words optimise(std::span<const std::uint32_t> kernel) {
     Words words(std::filesystem::file_size(after) / sizeof(std::uint32_t));
     std::ifstream(after, std::ios::binary)
         .read(reinterpret_cast<char *>(words.data()), sizeBytes(words.size()));
-    std::filesystem::remove_all(folder);
     return words;
 }
 

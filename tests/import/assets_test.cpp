@@ -5,12 +5,10 @@
 #include "host/base/error.h"
 #include "host/import/load.h"
 #include "host/scene/validate.h"
+#include "tests/fixtures/temporary_folder.h"
 #include "tests/fixtures/test_scene.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -38,15 +36,14 @@ class Assets : public ::testing::Test {
             setenv("HYALITE_ASSETS", setBefore_->c_str(), 1);
         else
             unsetenv("HYALITE_ASSETS");
-        std::filesystem::remove_all(folder);
     }
 
     void add(const std::string &name, const std::string &text = "{}") const {
         std::ofstream(folder / "scenes" / name) << text;
     }
 
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-assets-{}", getpid());
+    const testing::TemporaryFolder temporary_;
+    const std::filesystem::path &folder = temporary_.path;
 
   private:
     std::optional<std::string> setBefore_;

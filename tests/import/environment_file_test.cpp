@@ -18,10 +18,8 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 class EnvironmentFile : public ::testing::Test {
   protected:
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-environment-{}", getpid());
-    void SetUp() override { std::filesystem::create_directories(folder); }
-    void TearDown() override { std::filesystem::remove_all(folder); }
+    const testing::TemporaryFolder temporary_;
+    const std::filesystem::path &folder = temporary_.path;
 
     /// Two pixels, written and read again.
     [[nodiscard]] EnvironmentImage written(const char *name, const glm::vec3 &left,

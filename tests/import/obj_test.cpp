@@ -1,12 +1,12 @@
 #include "host/import/obj.h"
 
 #include "host/base/error.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <clocale>
 #include <cmath>
@@ -23,17 +23,10 @@
 namespace hyalite::core {
 namespace {
 
-// A file name that no other test process uses; the file goes with the object.
-class TemporaryPath {
-  public:
-    TemporaryPath()
-        : path(std::filesystem::path(::testing::TempDir()) /
-               ("hyalite_obj_test_" + std::to_string(::getpid()) + ".obj")) {}
-    TemporaryPath(const TemporaryPath &) = delete;
-    TemporaryPath &operator=(const TemporaryPath &) = delete;
-    ~TemporaryPath() { std::filesystem::remove(path); }
-
-    const std::filesystem::path path;
+// A file that no other test has, which goes with the object.
+struct TemporaryPath {
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path / "test.obj";
 };
 
 ObjMesh loadText(const std::string &text, const MeshTransform &transform = {}) {

@@ -3,6 +3,7 @@
 #include "host/import/mesh_arrays.h"
 #include "host/import/ply.h"
 #include "host/scene/limits.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,8 @@ TEST(MeshArrays, AreReadAsThePlyOfTheSameNumbers) {
     arrays.normals.assign(4, glm::dvec3(0.0, 3.0, 4.0));
     arrays.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     arrays.colours = {{0.25f, 0.5f, 1.0f}, {0, 0, 0}, {1, 1, 1}, {0.5f, 0.5f, 0.5f}};
-    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "square.ply";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "square.ply";
     std::ofstream stream(file);
     stream.precision(17);
     stream << "ply\nformat ascii 1.0\nelement vertex 4\n";

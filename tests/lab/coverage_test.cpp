@@ -1,10 +1,9 @@
 // Coverage of pictures whose shares are known.
 #include "host/lab/coverage.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include "tests/fixtures/temporary_folder.h"
 
-#include <unistd.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,9 +14,6 @@ namespace {
 
 class CoverageOf : public ::testing::Test {
   protected:
-    void SetUp() override { std::filesystem::create_directories(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     [[nodiscard]] Coverage measure(const std::string &scene, const std::vector<int> &crop = {}) const {
         const std::filesystem::path file = folder_ / "scene.json";
         std::ofstream(file) << scene;
@@ -28,8 +24,8 @@ class CoverageOf : public ::testing::Test {
         return measureCoverage(prepareScene(options, Source::Kept, nobody()));
     }
 
-    std::filesystem::path folder_ =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-coverage-{}", getpid());
+    const testing::TemporaryFolder temporary_;
+    const std::filesystem::path &folder_ = temporary_.path;
 };
 
 /// An orthographic camera that shows x and y from -4 to 4 in 80 x 80 pixels, and the rest of a scene.

@@ -1,4 +1,5 @@
 // Random scenes are the same on the device and on the CPU. By default 24 of them; README.md says how to run more.
+#include "tests/fixtures/temporary_folder.h"
 #include "tests/fixtures/test_device.h"
 #include "tests/random/random_scene.h"
 #include "tests/random/scene_check.h"
@@ -6,8 +7,6 @@
 #include "tests/random/shrink.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -72,8 +71,8 @@ TEST(RandomScenes, AreTheSameOnDeviceAndCpuAndGainNoLight) {
     const Wanted wanted;
     const bool isByHand = std::getenv("HYALITE_RANDOM_SEEDS") != nullptr;
     SceneCheck check(wanted.kernels);
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-random-of-{}", getpid());
+    const TemporaryFolder temporary;
+    const std::filesystem::path &folder = temporary.path;
     const auto begin = std::chrono::steady_clock::now();
     std::uint64_t count = 0;
     for (std::uint64_t seed = wanted.first; seed <= wanted.last; ++seed) {
@@ -103,12 +102,11 @@ TEST(RandomScenes, AreTheSameOnDeviceAndCpuAndGainNoLight) {
 // Eyes in glass so dark that paths came to carry subnormal numbers, and an eye that a lens takes through glass.
 TEST(RandomScenes, WithFaultsOnceHaveNoneOnTheCpu) {
     SceneCheck check({std::string(noKernel)});
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-random-of-{}", getpid());
+    const TemporaryFolder temporary;
+    const std::filesystem::path &folder = temporary.path;
     for (const std::uint64_t seed : {50168u, 50172u, 78119u})
         if (const std::optional<Fault> fault = check.faultOf(drawScene(seed), {noKernel}, folder))
             ADD_FAILURE() << "seed " << seed << ": " << fault->text;
-    std::filesystem::remove_all(folder);
 }
 
 TEST(RandomScenes, AreThoseOfTheirSeeds) {

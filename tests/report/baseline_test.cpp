@@ -3,6 +3,7 @@
 #include "host/report/baseline.h"
 #include "host/report/profile_json.h"
 #include "tests/fixtures/profile_fixture.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -146,7 +147,8 @@ TEST(Baseline, OfAnotherJobIsRefused) {
 }
 
 TEST(Baseline, IsReadFromAReport) {
-    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "baseline_test.json";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "baseline_test.json";
     const auto store = [&](const std::string &text) { std::ofstream(file) << text; };
     const Profile profile = handMadeProfile(calm);
     store(profileToJson(profile).dump());
@@ -173,12 +175,11 @@ TEST(Baseline, IsReadFromAReport) {
             }
         }
     }
-    std::filesystem::remove(file);
 }
 
 TEST(Baseline, OfAnotherVersionIsRefusedByName) {
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) / "baseline_version_test.json";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "baseline.json";
     for (const int version : {1, profileVersion + 1}) {
         nlohmann::ordered_json other = profileToJson(handMadeProfile(calm));
         other["profileVersion"] = version;
@@ -194,12 +195,11 @@ TEST(Baseline, OfAnotherVersionIsRefusedByName) {
                 << error.what();
         }
     }
-    std::filesystem::remove(file);
 }
 
 TEST(Baseline, NumbersThatDoNotFitAreRefused) {
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) / "baseline_numbers_test.json";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "baseline.json";
     for (const char *key : {"/image/width", "/image/height", "/work/rays/primary", "/work/rays/shadow"}) {
         for (const nlohmann::json &value :
              {nlohmann::json(1e300), nlohmann::json(-1e19), nlohmann::json(2.5), nlohmann::json("5")}) {
@@ -209,7 +209,6 @@ TEST(Baseline, NumbersThatDoNotFitAreRefused) {
             EXPECT_THROW(static_cast<void>(readFigures(file)), Error) << key << ": " << value;
         }
     }
-    std::filesystem::remove(file);
 }
 
 TEST(Baseline, NamesInItAreFitForATerminal) {

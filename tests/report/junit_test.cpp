@@ -1,6 +1,8 @@
 // JUnit XML, read by the parser of another program.
 #include "host/report/junit.h"
 
+#include "tests/fixtures/temporary_folder.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,7 +16,8 @@ namespace {
 
 /// Elements as arrays of name, attributes and children, by Python's parser. Null: it is not well-formed.
 nlohmann::json parsed(const std::string &xml) {
-    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "junit_test.xml";
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "junit.xml";
     std::ofstream(file) << xml;
     const std::string program =
         "import json, sys, xml.etree.ElementTree as tree\n"
@@ -25,7 +28,6 @@ nlohmann::json parsed(const std::string &xml) {
     for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;)
         text += static_cast<char>(letter);
     EXPECT_EQ(pclose(pipe), 0) << text;
-    std::filesystem::remove(file);
     return nlohmann::json::parse(text, nullptr, false);
 }
 

@@ -4,13 +4,11 @@
 #include "host/base/error.h"
 #include "host/import/load.h"
 #include "host/scene/validate.h"
+#include "tests/fixtures/temporary_folder.h"
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -244,11 +242,10 @@ TEST(Framing, SizesBeyondReasonAreRefused) {
 }
 
 TEST(Framing, ABareObjFileIsLoadedFramedAndValid) {
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) / fmt::format("hyalite-framing-{}.obj", getpid());
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "triangle.obj";
     std::ofstream(file) << "v 0 0 0\nv 10 0 0\nv 0 20 0\nf 1 2 3\n";
     const LoadedScene loaded = loadScene(file.string());
-    std::filesystem::remove(file);
     EXPECT_TRUE(loaded.autoFramed);
     EXPECT_EQ(loaded.file, file);
     EXPECT_EQ(loaded.meshReports.size(), 1u);

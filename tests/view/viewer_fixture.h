@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/view/viewer.h"
+#include "tests/fixtures/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +18,8 @@ namespace hyalite::core::testing {
 
 /// A folder of its own, which vanishes.
 struct ViewerFolder : ::testing::Test {
-    std::filesystem::path folder =
-        std::filesystem::temp_directory_path() /
-        ("view_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-
-    void SetUp() override {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directory(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
+    const TemporaryFolder temporary_;
+    const std::filesystem::path &folder = temporary_.path;
 
     [[nodiscard]] std::string store(const std::string &name, const std::string &text) const {
         const std::filesystem::path path = folder / name;
