@@ -1,10 +1,7 @@
 // The loop of all kernels that render: samples begin, their requests are answered, and rounds go into the film.
 //
 // A slot works on every `samplesInFlight`-th sample of one pixel; neighbouring slots take the samples in between. Rays
-// of one pixel are coherent. All slots of a subgroup that are in the same stage do its work together: on a CPU, a
-// subgroup pays for everything that any of its lanes does. An integrator defines begin(), and says by three constants
-// what its paths do: `hasChains`, after a nearest hit they may ask for another one right away; `sendsShadowRays`; and
-// `goesOn`, after these they may ask for more.
+// of one pixel are coherent. staged.glsl says how requests are answered.
 
 #include "shaders/drive/slots.glsl"
 #include "shaders/drive/film.glsl"
@@ -74,31 +71,6 @@ void beginPath(uint slot) {
     stage[slot] = stageNearest;
 }
 
-bool isThere(uint slot, uint traced) { return stage[slot] == traced && !isTraversing(slot); }
-
-// Traces the rays of all slots in a stage.
-void trace(const uint traced, const bool isVisibility) {
-    if (!hasTriangles)
-        return;
-    bool takesPart[RAYS];
-    EACH_RAY(slot, takesPart[slot] = stage[slot] == traced;)
-    EACH_PATH(slot, traversal[slot].key = keyOfRay(isVisibility ? 1u : 0u);)
-    advance(takesPart, isVisibility);
-}
-
-void endStage() {
-    stepsTaken += 1u;
-    passWork += workPerPass;
-}
-
-// Traces the rays whose nearest hits are wanted.
-void followPaths() {
-    EACH_PATH(slot, beginPath(slot);)
-    trace(stageNearest, false);
-    EACH_PATH(slot, if (isThere(slot, stageNearest)) answerNearest(slot);)
-    endStage();
-}
-
 void takeTurn(uint slot) {
     if (stage[slot] == stageTurn)
         answerTurn(slot);
@@ -108,12 +80,11 @@ void takeTurn(uint slot) {
     stage[slot] = stageShadow;
 }
 
-// Gives paths that are at a vertex their turn, and traces their shadow rays.
-void lightVertices() {
-    EACH_PATH(slot, takeTurn(slot);)
-    trace(stageShadow, true);
-    EACH_PATH(slot, if (isThere(slot, stageShadow)) answerVisibility(slot);)
-    endStage();
+bool isThere(uint slot, uint traced) { return stage[slot] == traced && !isTraversing(slot); }
+
+void endStage() {
+    stepsTaken += 1u;
+    passWork += workPerPass;
 }
 
 bool isAnyUpTo(uint last) {
@@ -122,17 +93,7 @@ bool isAnyUpTo(uint last) {
     return isAny;
 }
 
-// Runs samples to their end, or until no steps are left; regenerating: one pass.
-void advancePaths() {
-    do {
-        do
-            followPaths();
-        while (hasChains && !regeneratesPaths && isAnyUpTo(stageNearest) && hasStepsLeft());
-        if (sendsShadowRays)
-            lightVertices();
-        stepsTaken += 1u + stepsOfTurn();
-    } while (goesOn && !regeneratesPaths && isAnyUpTo(stageShadow) && hasStepsLeft());
-}
+#include "shaders/drive/staged.glsl"
 
 // A slot's own samples, whose film it shares with those of its pixel.
 
