@@ -81,7 +81,8 @@ TEST_F(LesserDevices, GetTheKernelThatTheyCanRun) {
         EXPECT_EQ(kernelOf("", fakes), "stack") << fakes;
     EXPECT_EQ(kernelOf("", "few-storage-buffers"), "skip-list-x2");
     EXPECT_EQ(kernelOf("", "few-storage-buffers,discrete"), "skip-list");
-    EXPECT_EQ(kernelOf("", "discrete"), "stack");
+    EXPECT_EQ(kernelOf("", "discrete"), "skip-list");
+    EXPECT_EQ(kernelOf("", "few-texels,discrete"), "stack");
 }
 
 TEST_F(LesserDevices, AreRefusedByWhatTheyLack) {

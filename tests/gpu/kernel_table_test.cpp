@@ -76,10 +76,13 @@ TEST(ChooseKernel, TakesWhatSuitsTheDeviceAndTheWorkload) {
     DeviceInfo software = device(DeviceType::Cpu);
     DeviceInfo hardware = device(DeviceType::Discrete);
     EXPECT_EQ(chosenOn(software), "skip-list skip-list-x2 skip-list ");
-    EXPECT_EQ(chosenOn(hardware), "stack stack stack ");
+    EXPECT_EQ(chosenOn(hardware), "skip-list skip-list skip-list ");
     software.canShuffle = false;
     EXPECT_EQ(chosenOn(software), "stack stack stack ");
+    hardware.maxStorageImagesPerStage = 8;
+    EXPECT_EQ(chosenOn(hardware), "stack stack stack ");
     hardware.maxStorageBuffersPerStage = 8;
+    hardware.maxStorageImagesPerStage = 64;
     EXPECT_EQ(chosenOn(hardware), "skip-list skip-list skip-list ");
     hardware.canShuffle = false;
     EXPECT_EQ(chosenOn(hardware), "stack stack stack ") << "that needs the least, and is refused";
