@@ -128,7 +128,9 @@ std::optional<Fault> SceneCheck::faultOfFile(const RandomScene &drawn, const Way
     SceneOptions options;
     options.scene = file.string();
     options.isFlattened = way.isFlattened;
-    options.keepsInstances = !way.isFlattened;
+    const nlohmann::json given = drawn.document.at("scene").value("settings", nlohmann::json::object());
+    const bool hasTree = given.value("bvh", std::string()) != "none"; // instances need one
+    options.keepsInstances = !way.isFlattened && hasTree;
     PreparedScene prepared = prepareScene(options, Source::Kept, nobody());
     const RenderSettings &settings = prepared.loaded.settings;
     const Crop &crop = prepared.crop;
