@@ -172,31 +172,34 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
     camera.height = options.height.value_or(height);
 }
 
-/// Throws for a lens that the camera cannot have.
-void requirePerspective(const Camera &camera, std::string_view option, std::string_view lacking) {
-    if (camera.kind != CameraKind::Perspective)
+/// Throws for a property that only another kind of camera has.
+void requireKind(CameraKind kind, const Camera &camera, std::string_view option, std::string_view lacking) {
+    if (camera.kind != kind)
         throw OverrideError(std::string(option),
-                            fmt::format("found a camera of the type {}, which has no {}; allowed: with a "
-                                        "perspective one",
-                                        nameIn(cameraNames, camera.kind), lacking));
+                            fmt::format("found a camera of the type {}, which has no {}; allowed: with one of "
+                                        "the type {}",
+                                        nameIn(cameraNames, camera.kind), lacking, nameIn(cameraNames, kind)));
 }
 
-/// The size of the image, the field of view and the lens.
+/// The size of the image, the field of view and the lens, or the view width.
 void overrideLens(const SceneOptions &options, LoadedScene &loaded) {
     Camera &camera = loaded.scene.camera;
     overrideSize(options, loaded.aspectRatio, camera);
     if (options.fovDegrees)
-        requirePerspective(camera, "fov", "field of view");
+        requireKind(CameraKind::Perspective, camera, "fov", "field of view");
     if (options.aperture)
-        requirePerspective(camera, "aperture", "lens");
+        requireKind(CameraKind::Perspective, camera, "aperture", "lens");
     if (options.focusDistance)
-        requirePerspective(camera, "focus-distance", "lens");
+        requireKind(CameraKind::Perspective, camera, "focus-distance", "lens");
+    if (options.viewWidth)
+        requireKind(CameraKind::Orthographic, camera, "view-width", "view width");
     if (loaded.verticalFovDegrees)
         camera.horizontalFovDegrees =
             horizontalFovDegrees(*loaded.verticalFovDegrees, camera.width, camera.height);
     camera.horizontalFovDegrees = options.fovDegrees.value_or(camera.horizontalFovDegrees);
     camera.aperture = options.aperture.value_or(camera.aperture);
     camera.focusDistance = options.focusDistance.value_or(camera.focusDistance);
+    camera.viewWidth = options.viewWidth.value_or(camera.viewWidth);
 }
 
 /// Places the camera: that of the file, or one that sees all of what is framed, with lights where it has none.

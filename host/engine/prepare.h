@@ -35,6 +35,7 @@ struct SceneOptions {
     std::optional<double> fovDegrees;
     std::optional<double> aperture{};
     std::optional<double> focusDistance{};
+    std::optional<double> viewWidth{};
     std::vector<double> cameraPosition;
     std::vector<double> lookAt;
     std::vector<double> up;

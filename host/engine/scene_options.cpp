@@ -61,6 +61,8 @@ constexpr auto table = std::to_array<SceneOption>({
      "diameter of the lens, in the scene's units: what is out of focus blurs; 0: a pinhole"},
     {"focus-distance", viewGroup, "NUMBER", Number{of<&SceneOptions::focusDistance>, limits::focusDistance},
      "how far away it is sharp, along the view direction"},
+    {"view-width", viewGroup, "NUMBER", Number{of<&SceneOptions::viewWidth>, limits::viewWidth},
+     "what the image's width shows by an orthographic camera, in the scene's units"},
     {"background", viewGroup, "R,G,B", Point{of<&SceneOptions::background>, limits::radiance, 3},
      "radiance of rays that leave the scene, linear RGB, instead of the scene's environment"},
     {"environment", viewGroup, "FILE", TextOption{of<&SceneOptions::environment>, "the name of a file", true},

@@ -271,6 +271,7 @@ nlohmann::ordered_json Viewer::describeScene() const {
     view["fov"] = camera.horizontalFovDegrees;
     view["aperture"] = camera.aperture;
     view["focusDistance"] = camera.focusDistance;
+    view["viewWidth"] = camera.viewWidth;
     view["moves"] = !prepared.loaded.cameraPath.empty();
     const glm::dvec3 low = glm::dvec3(prepared.packed.frame.boundsLower) + origin;
     const glm::dvec3 high = glm::dvec3(prepared.packed.frame.boundsUpper) + origin;

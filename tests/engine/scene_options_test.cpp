@@ -109,6 +109,27 @@ TEST(OtherViews, AreAsIfPreparedAnew) {
     }
 }
 
+TEST(SceneOptions, ACameraHasOnlyWhatItsKindHas) {
+    const auto refusal = [](const std::string &scene, const std::string &name) {
+        try {
+            static_cast<void>(prepareScene(optionsOf(scene, {{name, 3.0}}), Source::Dropped, nobody()));
+        } catch (const OverrideError &error) {
+            return error.name + ": " + error.what();
+        }
+        return std::string("not refused");
+    };
+    EXPECT_EQ(refusal("spheres", "view-width"),
+              "view-width: found a camera of the type perspective, which has no view width; allowed: with one of "
+              "the type orthographic");
+    const std::string orthographic = HYALITE_SOURCE_DIR "/tests/bits/orthographic.json";
+    EXPECT_EQ(refusal(orthographic, "view-width"), "not refused");
+    for (const char *name : {"fov", "aperture", "focus-distance"})
+        EXPECT_NE(refusal(orthographic, name).find("allowed: with one of the type perspective"), std::string::npos);
+    const PreparedScene wide =
+        prepareScene(optionsOf(orthographic, {{"view-width", 3.0}}), Source::Dropped, nobody());
+    EXPECT_EQ(wide.loaded.scene.camera.viewWidth, 3.0);
+}
+
 TEST(SceneOptions, InstancesAreTheSameSceneAsMeshesAreAndSayWhatTheyBecame) {
     const auto preparedWith = [](const Options &options) {
         return prepareScene(optionsOf("tea-table", options), Source::Dropped, nobody());

@@ -17,7 +17,8 @@ SCENES = ["cornell", "spheres", "lamps", "metals", "many-lights", "depth-of-fiel
 CHOICES = {
     "width": [8, 12, 16], "height": [8, 10], "crop": [(1, 5, 2, 6), (0, 8, 0, 8)],
     "camera_position": [(0.5, 1, 3), (-2, 0.5, 0.25)], "look_at": [(0, 0.5, 0), (0.25, 0, -1)],
-    "up": ["x", "-z", (0.1, 1, 0.2)], "fov": [30, 100], "aperture": [0.1], "focus_distance": [2, 5], "spp": [1, 2, 3], "seed": [0, 1, 7],
+    "up": ["x", "-z", (0.1, 1, 0.2)], "fov": [30, 100], "aperture": [0.1], "focus_distance": [2, 5], "view_width": [3],
+    "spp": [1, 2, 3], "seed": [0, 1, 7],
     "integrator": ["whitted", "path", "path", "normal", "albedo", "ao", "depth"], "max_depth": [1, 3, 5],
     "bvh": ["midpoint", "sah"], "leaf_size": [1, 4], "environment": ["neutral", SKY],
     "environment_rotate": [90], "background": [(0.5, 0.25, 0.125)], "exposure": [-1, 2],

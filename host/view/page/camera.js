@@ -38,9 +38,13 @@ class Orbit {
         this.position = add(this.pivot, turned(arm, axis, -angle));
     }
 
-    // Shares of the picture's width: what is under the pointer at the pivot's distance stays under it.
-    pan(right, up, fovDegrees) {
-        const width = 2 * this.distance * Math.tan(fovDegrees * Math.PI / 360);
+    // What the picture's width shows at the pivot's distance.
+    widthShown(fovDegrees) {
+        return 2 * this.distance * Math.tan(fovDegrees * Math.PI / 360);
+    }
+
+    // Shares of the picture's width, which shows `width`: what is under the pointer at the pivot's distance stays under it.
+    pan(right, up, width) {
         const imageUp = cross(this.right, this.direction);
         const move = add(times(this.right, -right * width), times(imageUp, -up * width));
         this.position = add(this.position, move);

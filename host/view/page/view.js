@@ -147,7 +147,7 @@ async function send(more) {
 
 function sendCamera() {
     hasOwnCamera = true;
-    send(orbit.options());
+    send({...orbit.options(), ...(wishedWidth ? {"view-width": wishedWidth} : {})});
 }
 
 let ownFault = "";
@@ -258,7 +258,7 @@ function takeState(now) {
         return; // overtaken by news
     state = now;
     if (!state.isChanging && !isSending)
-        wishedFov = null;
+        wishedFov = wishedWidth = null;
     document.title = `${state.scene} - Hyalite`;
     element("scene").textContent = state.scene;
     fillSelect(element("show"), [["", `${state.integrator} (the scene's)`], ...state.integrators.map(
@@ -355,11 +355,26 @@ const pointers = new Map();
 let travelled = 0;
 
 const turnPerWidth = Math.PI; // of the canvas
+let wishedWidth = null; // of an orthographic view
+
+function widthShown() {
+    if (state.camera.type === "orthographic")
+        return wishedWidth ?? state.camera.viewWidth;
+    return orbit.widthShown(state.camera.type === "perspective" ? state.camera.fov : 60);
+}
+
+// Below 1: nearer. An orthographic camera shows less instead.
+function zoom(factor) {
+    if (state.camera.type === "orthographic")
+        wishedWidth = widthShown() * factor;
+    else
+        orbit.dolly(factor);
+}
 
 function moveBy(dx, dy, isPanning) {
     const width = canvas.clientWidth;
     if (isPanning)
-        orbit.pan(dx / width, -dy / width, state.camera.type === "perspective" ? state.camera.fov : 60);
+        orbit.pan(dx / width, -dy / width, widthShown());
     else
         orbit.turn(dx / width * turnPerWidth, dy / width * turnPerWidth);
     sendCamera();
@@ -386,7 +401,7 @@ canvas.addEventListener("pointermove", event => {
     if (pointers.size === 2) {
         const other = [...pointers.values()].find(pointer => pointer.pointerId !== event.pointerId);
         const spread = pointer => Math.hypot(pointer.clientX - other.clientX, pointer.clientY - other.clientY);
-        orbit.dolly(Math.min(Math.max(spread(before) / Math.max(spread(event), 1), 0.5), 2));
+        zoom(Math.min(Math.max(spread(before) / Math.max(spread(event), 1), 0.5), 2));
         moveBy(dx / 2, dy / 2, true);
     } else {
         moveBy(dx, dy, event.shiftKey || (event.buttons & 6) !== 0);
@@ -420,7 +435,7 @@ canvas.addEventListener("wheel", event => {
     if (!orbit)
         return;
     const lines = event.deltaMode === 1 ? event.deltaY : event.deltaY / 40;
-    orbit.dolly(Math.exp(0.05 * Math.min(Math.max(lines, -10), 10)));
+    zoom(Math.exp(0.05 * Math.min(Math.max(lines, -10), 10)));
     sendCamera();
 }, {passive: false});
 
@@ -459,7 +474,8 @@ function show(name) { send({"show": name || null}); }
 
 function reset() {
     orbit = null;
-    send({"camera-position": null, "look-at": null, "up": null, "fov": null, "focus-distance": null, "aperture": null});
+    send({"camera-position": null, "look-at": null, "up": null, "fov": null, "focus-distance": null, "aperture": null,
+          "view-width": null});
 }
 
 element("show").addEventListener("change", event => show(event.target.value));
@@ -481,7 +497,7 @@ element("fit").addEventListener("click", () => {
 element("fov").addEventListener("input", event => setFov(Number(event.target.value)));
 element("cameras").addEventListener("change", event => {
     orbit = null;
-    send({"camera": event.target.value || null, "camera-position": null, "look-at": null, "up": null, "fov": null});
+    send({"camera": event.target.value || null, "camera-position": null, "look-at": null, "up": null, "fov": null, "view-width": null});
 });
 element("reset").addEventListener("click", reset);
 element("split").addEventListener("input", draw);
@@ -501,7 +517,7 @@ function handleKey(event) {
         if (!orbit)
             return;
         if (event.shiftKey)
-            orbit.pan(right / 2, up / 2, state.camera.type === "perspective" ? state.camera.fov : 60);
+            orbit.pan(right / 2, up / 2, widthShown());
         else
             orbit.turn(right * step * 10, up * step * 10);
         sendCamera();
@@ -509,7 +525,7 @@ function handleKey(event) {
     const dolly = factor => {
         if (!orbit)
             return;
-        orbit.dolly(factor);
+        zoom(factor);
         sendCamera();
     };
     const keys = {

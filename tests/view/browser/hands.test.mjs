@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import {after, before, beforeEach, test} from "node:test";
 import {storeRoom} from "./room.mjs";
-import {Folder, Viewer, complaints, openBrowser, open, settle, stateOf, until} from "./viewer.mjs";
+import {Folder, Viewer, assertShowsItsCommand, complaints, openBrowser, open, settle, stateOf, until} from "./viewer.mjs";
 
 const folder = new Folder;
 const camera = {aperture: 0.5, focusDistance: 6};
@@ -203,6 +203,30 @@ test("answers that come after all news leave the hands the camera", async () => 
     await reset();
     await press("ArrowUp");
     await assertOrbited(0, Math.PI / 36);
+});
+
+
+test("the wheel makes an orthographic camera show less, and r all of it again", async () => {
+    const scene = storeRoom(folder, {camera: {type: "orthographic", viewWidth: 8, horizontalFov: undefined}, settings: {spp: 1}},
+                            "orthographic.json");
+    const own = await Viewer.start(folder, scene, "--device", "cpu");
+    const tab = await open(browser, own);
+    try {
+        const before = (await settle(tab)).camera;
+        near(before.viewWidth, 8, 0, "the width of the scene");
+        await tab.focus("#picture");
+        await tab.keyboard.press("+");
+        await until(tab, now => now.camera.viewWidth < 8);
+        const now = (await settle(tab)).camera;
+        near(now.viewWidth, 7.2, 1e-9, "the width");
+        near(now.position, before.position, 1e-9, "the place");
+        await assertShowsItsCommand(tab, folder, "zoomed");
+        await tab.keyboard.press("r");
+        await until(tab, now => now.camera.viewWidth === 8);
+    } finally {
+        await tab.close();
+        await own.end();
+    }
 });
 
 test("nothing was complained of", () => assert.deepEqual(complaints, []));
