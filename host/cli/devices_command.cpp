@@ -81,7 +81,7 @@ void tune(const std::string &deviceName, Observer &observer) {
     for (const KernelRates &rates : all) {
         printResult("{:<11} {:<11}", nameIn(gpu::workloadNames, rates.workload), rates.scene);
         for (const double rate : rates.megaraysPerSecond)
-            printResult(" {:>12.3g}", rate);
+            printResult(" {:>12}", rate > 0.0 ? fmt::format("{:.3g}", rate) : "-");
         const gpu::KernelRow &kernel = gpu::kernelTable[rates.best];
         printResult("   {}\n", kernel.name);
         tuning.kernels[static_cast<std::size_t>(rates.workload)] = &kernel;

@@ -29,8 +29,7 @@ const KernelRow &chooseKernel(const DeviceInfo &device, Workload workload,
             continue;
         if (firstAllowed == nullptr)
             firstAllowed = &row;
-        const int place =
-            device.isSoftware() ? row.suits.software[static_cast<std::size_t>(workload)] : row.suits.others;
+        const int place = row.suits.placeOn(device, workload);
         if (place > 0 && place < bestPlace && lackFor(row, device).empty()) {
             best = &row;
             bestPlace = place;

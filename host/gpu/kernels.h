@@ -5,6 +5,7 @@
 #include "host/packing/packed_scene.h"
 #include "host/scene/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>
@@ -29,6 +30,7 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 /// The tree in device memory.
 enum class KernelTree {
     NodePairs, ///< that of the packed scene
+    WideNodes, ///< made of it for the device: up to eight children a node
     SkipLists  ///< made of it for the device. Triangles are tested in pairs; few triangles have no tree
 };
 
@@ -44,19 +46,35 @@ enum class KernelLanes {
     Exchanging   ///< samples of a pixel lie side by side, and dispatches end with whole samples
 };
 
+/// In what order the rays of paths are traced.
+enum class KernelDrive {
+    Staged, ///< all lanes are in the same stage, as a CPU pays for each that any lane is in
+    Plain   ///< a lane goes on with whatever its path asks for next
+};
+
 /// Places in the automatic choice, 1 before 2; 0: a kernel that runs only by its name.
 struct KernelSuits {
     std::array<int, workloadNames.size()> software; ///< devices that compute on the CPU, by Workload
     int others;
+
+    [[nodiscard]] int placeOn(const DeviceInfo &device, Workload workload) const {
+        return device.isSoftware() ? software[static_cast<std::size_t>(workload)] : others;
+    }
+    /// Whether such a device has it by its name alone.
+    [[nodiscard]] bool isByNameOn(const DeviceInfo &device) const {
+        return std::ranges::all_of(
+            workloadNames, [&](const auto &workload) { return placeOn(device, workload.second) == 0; });
+    }
 };
 
 struct KernelRow {
     std::string_view name;  ///< the word for it, here and in files
     std::string_view trace; ///< its traversal, in the names of SPIR-V modules
     KernelTree tree;
-    bool hasStack; ///< one for each slot, in a buffer; and its work is that of the cost
+    bool hasStack; ///< one for each slot, in a buffer
     KernelMemory memory;
     KernelLanes lanes;
+    KernelDrive drive;
     int raysAtOnce; ///< path slots of an invocation, 1 or 2
     KernelSuits suits;
 };
@@ -77,14 +95,25 @@ inline constexpr auto kernelTable = std::to_array<KernelRow>({
      .hasStack = true,
      .memory = KernelMemory::StorageBuffers,
      .lanes = KernelLanes::Independent,
+     .drive = KernelDrive::Staged,
      .raysAtOnce = 1,
      .suits = {.software = {3, 3, 3}, .others = 2}},
+    {.name = "wide",
+     .trace = "Wide",
+     .tree = KernelTree::WideNodes,
+     .hasStack = true,
+     .memory = KernelMemory::StorageBuffers,
+     .lanes = KernelLanes::Independent,
+     .drive = KernelDrive::Plain,
+     .raysAtOnce = 1,
+     .suits = {.software = {0, 0, 0}, .others = 4}},
     {.name = "skip-list",
      .trace = "Skip",
      .tree = KernelTree::SkipLists,
      .hasStack = false,
      .memory = KernelMemory::Texels,
      .lanes = KernelLanes::Exchanging,
+     .drive = KernelDrive::Staged,
      .raysAtOnce = 1,
      .suits = {.software = {1, 2, 1}, .others = 1}},
     {.name = "skip-list-x2",
@@ -93,6 +122,7 @@ inline constexpr auto kernelTable = std::to_array<KernelRow>({
      .hasStack = false,
      .memory = KernelMemory::Texels,
      .lanes = KernelLanes::Exchanging,
+     .drive = KernelDrive::Staged,
      .raysAtOnce = 2,
      .suits = {.software = {2, 1, 2}, .others = 3}},
 });
@@ -136,6 +166,11 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> fo
 
 /// The name of the SPIR-V module of a program such as `path` by this kernel: `pathSkipTwoSlots`.
 [[nodiscard]] std::string moduleName(std::string_view program, const KernelRow &kernel);
+
+/// Whether the work of its traversal is that of the cost, which the CPU counts too.
+[[nodiscard]] constexpr bool countsCost(const KernelRow &kernel) {
+    return kernel.tree == KernelTree::NodePairs;
+}
 
 /// Whether both read the same buffers of a scene.
 [[nodiscard]] constexpr bool shareScenes(const KernelRow &a, const KernelRow &b) {

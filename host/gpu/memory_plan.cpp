@@ -137,6 +137,11 @@ ScenePlan planScene(const PackedScene &scene, const KernelRow &kernel) {
         planned.hostBytes = scene.hasTriangles ? listBytes + skipListWorkBytes(scene.nodes.size()) +
                                                      std::span(scene.instances).size_bytes()
                                                : 0;
+    } else if (kernel.tree == KernelTree::WideNodes) {
+        planned.buffers[layout::bindingNodes] =
+            plan("the wide nodes", use, scene.nodes.size() * sizeof(layout::WideNode));
+        planned.hostBytes =
+            planned.buffers[layout::bindingNodes].sizeBytes + std::span(scene.instances).size_bytes();
     } else {
         planned.buffers[layout::bindingNodes] = plan("the nodes", use, std::span(scene.nodes).size_bytes());
     }

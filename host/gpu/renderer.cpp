@@ -117,7 +117,7 @@ struct Renderer::State {
         const Workload workload = workloadOf(scene, integrator);
         if (showsWork) {
             used.isCounting = true;
-            used.kernel = &kernelWithStack(workload);
+            used.kernel = &kernelOfCost(workload);
         } else if (used.kernel == nullptr) {
             used.kernel = preferred[static_cast<std::size_t>(workload)];
         }
@@ -141,15 +141,14 @@ struct Renderer::State {
     }
 
     /// The kernel whose work samples show. Throws Error{Usage} if another one is wanted.
-    [[nodiscard]] const KernelRow &kernelWithStack(Workload workload) const {
-        const auto hasStack = [](const KernelRow &row) { return row.hasStack; };
+    [[nodiscard]] const KernelRow &kernelOfCost(Workload workload) const {
         if (wanted.kernel == nullptr)
-            return chooseKernel(info, workload, hasStack);
-        if (hasStack(*wanted.kernel))
+            return chooseKernel(info, workload, countsCost);
+        if (countsCost(*wanted.kernel))
             return *wanted.kernel;
         std::string allowed;
         for (const KernelRow &row : kernelTable)
-            if (row.hasStack)
+            if (countsCost(row))
                 allowed += fmt::format("{}, ", row.name);
         throw Error(ErrorKind::Usage,
                     fmt::format("the cost is that of a traversal with a stack: found the kernel {}; "

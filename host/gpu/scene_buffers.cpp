@@ -1,5 +1,7 @@
 #include "host/gpu/scene_buffers.h"
 
+#include "host/packing/wide_tree.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -21,14 +23,23 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan,
                            const KernelRow &kernel)
     : lists_(kernel.tree == KernelTree::SkipLists ? makeSkipList(scene) : SkipList{}) {
-    const bool isSkipList = kernel.tree == KernelTree::SkipLists;
-    const auto treeBytes =
-        isSkipList ? std::as_bytes(std::span(lists_.nodes)) : std::as_bytes(std::span(scene.nodes));
+    WideTree wide;
+    std::span<const std::byte> treeBytes = std::as_bytes(std::span(scene.nodes));
+    std::span<const std::byte> instances = std::as_bytes(std::span(scene.instances));
+    if (kernel.tree == KernelTree::SkipLists) {
+        treeBytes = std::as_bytes(std::span(lists_.nodes));
+        instances = std::as_bytes(std::span(lists_.instances));
+    } else if (kernel.tree == KernelTree::WideNodes) {
+        wide = makeWideTree(scene);
+        treeBytes = std::as_bytes(std::span(wide.nodes));
+        instances = std::as_bytes(std::span(wide.instances));
+    }
     BufferPlan treePlan = plan.buffers[layout::bindingNodes];
     assert(treeBytes.size() <= treePlan.sizeBytes);
     treePlan.sizeBytes = treeBytes.size();
     Buffer tree = uploaded(device, treePlan, treeBytes);
     lists_.nodes = {}; // the largest part of a large scene: before the other buffers take memory
+    wide.nodes = {};
 
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
@@ -37,8 +48,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
     bytes[layout::bindingPairConstants] = std::as_bytes(std::span(scene.trianglePairs));
     for (const SceneArray &array : scene.arrays())
         bytes[array.binding] = array.bytes;
-    if (isSkipList)
-        bytes[layout::bindingInstances] = std::as_bytes(std::span(lists_.instances));
+    bytes[layout::bindingInstances] = instances;
     for (std::size_t binding = 0; binding < plan.buffers.size(); ++binding)
         if (binding != layout::bindingNodes)
             buffers.push_back(uploaded(device, plan.buffers[binding], bytes[binding]));

@@ -64,7 +64,8 @@ KernelRates measure(const Trial &trial, const std::string &deviceName, Observer 
         const double bestRate = std::ranges::max(rates.megaraysPerSecond);
         std::vector<double> rateNow(renderers.size(), 0.0);
         for (std::size_t i = 0; i < renderers.size(); ++i) {
-            if (rates.megaraysPerSecond[i] < shareNeeded * bestRate && i != rates.best)
+            const bool isSlow = rates.megaraysPerSecond[i] < shareNeeded * bestRate && i != rates.best;
+            if (isSlow || gpu::kernelTable[i].suits.placeOn(device, workload) == 0)
                 continue;
             gpu::Result result = renderers[i].render(scene.packed, settings, scene.crop);
             if (result.failure)

@@ -1,6 +1,7 @@
 #include "host/lab/verify.h"
 
 #include "host/base/error.h"
+#include "host/gpu/vk/device_list.h"
 #include "host/lab/comparison_run.h"
 
 #include <fmt/format.h>
@@ -22,10 +23,10 @@ struct Kernel {
     const gpu::KernelRow *row = nullptr; ///< null for the CPU
 
     [[nodiscard]] std::string name() const { return row != nullptr ? std::string(row->name) : ""; }
-    /// The cost is that of a traversal with a stack, so that other kernels have none.
+    /// The cost is that of node pairs and a stack, so that other kernels have none.
     [[nodiscard]] bool renders(const ShippedFilm &film) const {
-        return row == nullptr ||
-               (row->raysAtOnce <= film.maxSlots && (film.integrator != Integrator::Cost || row->hasStack));
+        return row == nullptr || (row->raysAtOnce <= film.maxSlots &&
+                                  (film.integrator != Integrator::Cost || countsCost(*row)));
     }
 };
 
@@ -37,8 +38,9 @@ std::vector<std::vector<Kernel>> groupsOf(const std::string &device, const std::
         groups.front().emplace_back();
         return groups;
     }
+    const gpu::DeviceInfo info = gpu::chooseDevice(gpu::listDevices(), device);
     for (const gpu::KernelRow &row : gpu::kernelTable) {
-        if (!wanted.empty() && std::ranges::find(wanted, row.name) == wanted.end())
+        if (wanted.empty() ? row.suits.isByNameOn(info) : std::ranges::find(wanted, row.name) == wanted.end())
             continue;
         std::vector<Kernel> &last = groups.back();
         const bool isOfLast = last.empty() || last.back().row->hasStack == row.hasStack;

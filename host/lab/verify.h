@@ -53,9 +53,9 @@ struct DeviceVerdict {
 };
 
 /// Renders `shipped.films` on "cpu", or on a device as openBackend() takes it, with those of gpu::kernelTable that
-/// `wanted` names and the device can run (none: all of them), several at a time. `onFilm` gets each verdict with the
-/// finished share of the work, from one thread at a time. Devices that fail while they render do not throw. Throws as
-/// openBackend() and prepareScene() do, and Error of the stop's kind once the observer wants one.
+/// `wanted` names (none: that the device may choose by itself) and the device can run, several at a time. `onFilm` gets
+/// each verdict with the finished share of the work, from one thread at a time. Devices that fail while they render do
+/// not throw. Throws as openBackend() and prepareScene() do, and Error of the stop's kind once the observer wants one.
 [[nodiscard]] DeviceVerdict verifyDevice(const std::string &device, const ShippedFilms &shipped,
                                          Observer &observer, const std::vector<std::string> &wanted = {},
                                          const std::function<void(const FilmVerdict &, double)> &onFilm = {});

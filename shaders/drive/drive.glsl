@@ -1,7 +1,7 @@
 // The loop of all kernels that render: samples begin, their requests are answered, and rounds go into the film.
 //
 // A slot works on every `samplesInFlight`-th sample of one pixel; neighbouring slots take the samples in between. Rays
-// of one pixel are coherent. staged.glsl says how requests are answered.
+// of one pixel are coherent. plain.glsl and staged.glsl say in what order requests are answered.
 
 #include "shaders/drive/slots.glsl"
 #include "shaders/drive/film.glsl"
@@ -93,7 +93,11 @@ bool isAnyUpTo(uint last) {
     return isAny;
 }
 
+#if DRIVE_PLAIN
+#include "shaders/drive/plain.glsl"
+#else
 #include "shaders/drive/staged.glsl"
+#endif
 
 // A slot's own samples, whose film it shares with those of its pixel.
 

@@ -13,8 +13,6 @@ const uint maxSamplesInFlight = 8u;
 
 uint firstLaneOfPixel() { return gl_SubgroupInvocationID & ~(samplesInFlight - 1u); }
 
-uint laneInPixel() { return gl_SubgroupInvocationID & (samplesInFlight - 1u); }
-
 // The values of the slots of a pixel, in the order of their samples. Where shuffles are loops over the lanes, every
 // lane gets all values instead and selects those of its pixel (host/gpu/lane_exchange.h).
 void exchangeInPixel(uint mine, out uint values[maxSamplesInFlight]) {

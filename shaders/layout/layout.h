@@ -175,6 +175,39 @@ struct NodePair {
     uint pad1;
 };
 
+// The same tree with up to eight children a node (host/packing/wide_tree.h). The boxes of children are bytes of a grid that
+// begins at `origin`: byte b is at origin + cell * b. `grid` has the biased exponents of the cell along x, y and z in its
+// lower bytes, and a bit for each child that is there in the upper one. Words such as lowerX0 are for children 0 to 3, and
+// lowerX1 for 4 to 7. A child's word is a reference as those of NodePair are.
+struct WideNode {
+    vec3 origin;
+    uint grid;
+    uint lowerX0;
+    uint lowerX1;
+    uint lowerY0;
+    uint lowerY1;
+    uint lowerZ0;
+    uint lowerZ1;
+    uint upperX0;
+    uint upperX1;
+    uint upperY0;
+    uint upperY1;
+    uint upperZ0;
+    uint upperZ1;
+    uint child0;
+    uint child1;
+    uint child2;
+    uint child3;
+    uint child4;
+    uint child5;
+    uint child6;
+    uint child7;
+};
+
+const uint wideNodeWords = 24u;
+const uint wideNodeChildren = 16u; // the word of child 0
+const uint maxWideNodes = 0xFFFFFEu; // a traversal stack has a node and eight bits in a word, below leaveInstance
+
 // Skip list: the same tree for traversal without a stack. Nodes are in depth-first order, each followed by its subtree,
 // and know where a ray continues that misses them. There are two lists: lower siblings come first in one, upper
 // siblings in the other. Boxes are rounded outward to a grid over all triangles, whose planes are signed 16-bit

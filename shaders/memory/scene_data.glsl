@@ -54,6 +54,8 @@ uvec4 fetchTriangleRow(uint row) {
 
 #if TRAVERSAL_SKIP_LIST
 SCENE_ARRAY(bindingNodes, 4u, skipNodes, SkipNode, fetchSkipNode)
+#elif TREE_WIDE
+SCENE_ARRAY(bindingNodes, 4u, wideNodes, WideNode, fetchWideNode)
 #else
 SCENE_ARRAY(bindingNodes, 4u, nodes, NodePair, fetchNode)
 #endif

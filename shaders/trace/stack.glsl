@@ -1,12 +1,15 @@
-// The portable traversal: an explicit stack over the node pairs, in storage buffers.
+// The traversals with an explicit stack, over node pairs or wide nodes in storage buffers. The files of nodes define
+//
+//   uint nextSubtree(uint i)                                         the subtree that is next in the stack, or noNode
+//   uint visitNode(uint i, BoxRay ray, InstanceRecord instance)      tests boxes, and returns the subtree to go on with
 //
 // A step visits at most one inner node and tests at most one triangle for each ray. Traversal can stop after any step:
 // cursor, nearest hit and stack outlive the dispatch.
 
-void pushSubtree(uint i, uint subtree) {
+void pushEntry(uint i, uint entry) {
     uint size = traversal[i].stackSize;
     if (size < stackSize) {
-        stackEntries[size * pathCount() + traversal[i].stackIndex] = subtree;
+        stackEntries[size * pathCount() + traversal[i].stackIndex] = entry;
         traversal[i].stackSize = size + 1u;
         if (isCounting)
             workCounts.w = max(workCounts.w, size + 1u);
@@ -15,7 +18,7 @@ void pushSubtree(uint i, uint subtree) {
     }
 }
 
-uint popSubtree(uint i) {
+uint popEntry(uint i) {
     uint size = traversal[i].stackSize;
     if (size == 0u)
         return noNode;
@@ -23,14 +26,29 @@ uint popSubtree(uint i) {
     return stackEntries[(size - 1u) * pathCount() + traversal[i].stackIndex];
 }
 
+// The interval of a box, placed by `instance` if the cursor is in one.
+vec2 nodeInterval(uint i, BoxRay ray, InstanceRecord instance, vec3 lower, vec3 upper) {
+    if (hasInstances && traversal[i].cursorInstance != noInstance) {
+        PlacedBoxRay placedRay = makePlacedBoxRay(ray, instance);
+        return placedBoxInterval(placedRay, 0.5 * (lower + upper), 0.5 * (upper - lower));
+    }
+    return boxInterval(ray, lower, upper);
+}
+
+#if TREE_WIDE
+#include "shaders/trace/wide_node.glsl"
+#else
+#include "shaders/trace/node_pair.glsl"
+#endif
+
 // Enters a subtree, and on the way an instance, or leaves one.
 void enterSubtree(uint i, uint subtree) {
     if (hasInstances && subtree == leaveInstance) {
         traversal[i].cursorInstance = noInstance;
-        subtree = popSubtree(i);
+        subtree = nextSubtree(i);
     }
     if (hasInstances && isInstance(subtree)) {
-        pushSubtree(i, leaveInstance);
+        pushEntry(i, leaveInstance);
         traversal[i].cursorInstance = instanceOf(subtree);
         subtree = fetchInstance(traversal[i].cursorInstance).root;
     }
@@ -51,31 +69,6 @@ void stopTraversal(uint i) {
     traversal[i].stackSize = 0u;
 }
 
-// The interval of a box, placed by `instance` if the cursor is in one.
-vec2 nodeInterval(uint i, BoxRay ray, InstanceRecord instance, vec3 lower, vec3 upper) {
-    if (hasInstances && traversal[i].cursorInstance != noInstance) {
-        PlacedBoxRay placedRay = makePlacedBoxRay(ray, instance);
-        return placedBoxInterval(placedRay, 0.5 * (lower + upper), 0.5 * (upper - lower));
-    }
-    return boxInterval(ray, lower, upper);
-}
-
-void visitNode(uint i, BoxRay ray, InstanceRecord instance) {
-    NodePair node = fetchNode(traversal[i].cursorNode);
-    countWork(i, true, uvec3(1u, (node.left != noNode ? 1u : 0u) + (node.right != noNode ? 1u : 0u), 0u));
-    vec2 left = nodeInterval(i, ray, instance, node.leftLower, node.leftUpper);
-    vec2 right = nodeInterval(i, ray, instance, node.rightLower, node.rightUpper);
-    bool isLeftHit = node.left != noNode && left.x <= lesser(left.y, traversal[i].hit.distance);
-    bool isRightHit = node.right != noNode && right.x <= lesser(right.y, traversal[i].hit.distance);
-    bool isRightNearer = isRightHit && (!isLeftHit || right.x < left.x);
-    uint nearer = isRightNearer ? node.right : node.left;
-    if (isLeftHit && isRightHit)
-        pushSubtree(i, isRightNearer ? node.left : node.right);
-    if (!isLeftHit && !isRightHit)
-        nearer = popSubtree(i);
-    enterSubtree(i, nearer);
-}
-
 void visitTriangle(uint i, TriangleRay ray, BoxRay boxRay, InstanceRecord instance,
                    const bool isVisibility) {
     uint record = traversal[i].cursorTriangle;
@@ -87,7 +80,7 @@ void visitTriangle(uint i, TriangleRay ray, BoxRay boxRay, InstanceRecord instan
     bool isLast = (triangle.flags & triangleEndsLeaf) != 0u;
     uint next = record + 1u;
     if (isLast)
-        next = popSubtree(i);
+        next = nextSubtree(i);
     enterSubtree(i, isLast ? next : next | leafFlag);
     if (meetTriangle(i, record, instanceIndex, triangle, ray, boxRay, isVisibility))
         stopTraversal(i);
@@ -123,7 +116,7 @@ bool stepWalk(uint i, bool takesPart, const bool isVisibility) {
     countBusyRay(takesPart && isTraversing(i));
     if (takesPart && traversal[i].cursorNode != noNode) {
         loadInstance(i);
-        visitNode(i, walks[i].box, walks[i].instance);
+        enterSubtree(i, visitNode(i, walks[i].box, walks[i].instance));
     }
     if (takesPart && traversal[i].cursorTriangle != noNode) {
         loadInstance(i);

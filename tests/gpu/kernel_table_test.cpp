@@ -44,6 +44,8 @@ TEST(KernelTable, IsThatOfTheBuild) {
             for (const std::string &definition :
                  {fmt::format("RAYS={} ", row.raysAtOnce),
                   fmt::format("TRAVERSAL_SKIP_LIST={:d} ", row.tree == KernelTree::SkipLists),
+                  fmt::format("TREE_WIDE={:d} ", row.tree == KernelTree::WideNodes),
+                  fmt::format("DRIVE_PLAIN={:d} ", row.drive == KernelDrive::Plain),
                   fmt::format("MEMORY_TEXELS={:d} ", row.memory == KernelMemory::Texels),
                   fmt::format("LANES_SHUFFLE={:d} ", row.lanes == KernelLanes::Exchanging)})
                 EXPECT_NE(definitions.find(definition), std::string::npos) << name << ": " << definitions;

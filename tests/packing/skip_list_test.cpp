@@ -1,39 +1,19 @@
 // The skip lists hold the same tree: every leaf, in boxes that enclose the real ones.
 #include "host/packing/skip_list.h"
 
+#include "tests/packing/tree_fixture.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 namespace hyalite::core {
 namespace {
 
-/// `count` small triangles in a cube of the given size around `centre`.
-Scene randomScene(std::size_t count, float size, const glm::vec3 &centre) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> uniform(-0.5f, 0.5f);
-    const auto point = [&](float scale) {
-        return glm::vec3(uniform(random), uniform(random), uniform(random)) * scale;
-    };
-    Scene scene;
-    scene.materials.push_back({});
-    TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 corner = centre + point(size);
-        mesh.positions.insert(mesh.positions.end(),
-                              {corner, corner + point(size * 0.02f), corner + point(size * 0.02f)});
-        mesh.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
-    }
-    scene.meshes.push_back(mesh);
-    return scene;
-}
-
-PackedScene pack(const Scene &scene, TreeKind kind, int leafSize) {
-    return packScene(scene, buildBvh(kind, buildTriangles(scene), leafSize));
-}
+using testing::pack;
+using testing::randomScene;
 
 /// The box that a node stands for, in double as the grid is exact there.
 std::pair<glm::dvec3, glm::dvec3> boxOf(const SkipList &list, const layout::SkipNode &node) {
