@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include <zlib.h>
 
 namespace still_life {
 
@@ -15,45 +18,24 @@ void appendBigEndian(std::string &bytes, std::uint32_t value) {
         bytes += static_cast<char>(value >> shift & 255u);
 }
 
-/// CRC-32 of ISO 3309.
-std::uint32_t crc32(std::string_view bytes) {
-    std::uint32_t crc = 0xFFFFFFFFu;
-    for (const char byte : bytes) {
-        crc ^= static_cast<unsigned char>(byte);
-        for (int bit = 0; bit < 8; ++bit)
-            crc = (crc & 1u) != 0 ? 0xEDB88320u ^ (crc >> 1) : crc >> 1;
-    }
-    return crc ^ 0xFFFFFFFFu;
-}
+const Bytef *bytesOf(std::string_view text) { return reinterpret_cast<const Bytef *>(text.data()); }
 
 void appendChunk(std::string &file, std::string_view type, std::string_view data) {
     appendBigEndian(file, static_cast<std::uint32_t>(data.size()));
     const std::string body = std::string(type) + std::string(data);
     file += body;
-    appendBigEndian(file, crc32(body));
+    appendBigEndian(file,
+                    static_cast<std::uint32_t>(::crc32(0, bytesOf(body), static_cast<uInt>(body.size()))));
 }
 
-/// A zlib stream of blocks that are not packed.
-std::string store(std::string_view data) {
-    constexpr std::size_t blockBytes = 65535;
-    std::string stream = "\x78\x01";
-    std::uint32_t a = 1; // Adler-32
-    std::uint32_t b = 0;
-    for (const char byte : data) {
-        a = (a + static_cast<unsigned char>(byte)) % 65521u;
-        b = (b + a) % 65521u;
-    }
-    for (std::size_t begin = 0; begin < data.size(); begin += blockBytes) {
-        const std::string_view block = data.substr(begin, blockBytes);
-        const auto length = static_cast<std::uint32_t>(block.size());
-        stream += begin + blockBytes >= data.size() ? '\1' : '\0';
-        for (const std::uint32_t number : {length, ~length}) {
-            stream += static_cast<char>(number & 255u);
-            stream += static_cast<char>(number >> 8 & 255u);
-        }
-        stream += block;
-    }
-    appendBigEndian(stream, b << 16 | a);
+/// A zlib stream.
+std::string pack(std::string_view data) {
+    uLongf size = compressBound(static_cast<uLong>(data.size()));
+    std::string stream(size, '\0');
+    if (compress2(reinterpret_cast<Bytef *>(stream.data()), &size, bytesOf(data),
+                  static_cast<uLong>(data.size()), Z_BEST_COMPRESSION) != Z_OK)
+        throw std::runtime_error("zlib cannot pack a picture");
+    stream.resize(size);
     return stream;
 }
 
@@ -99,7 +81,7 @@ std::string encodePng(const Picture &picture, bool hasAlpha) {
     header += std::string{8, hasAlpha ? '\6' : '\2', 0, 0, 0};
     std::string png = "\x89PNG\r\n\x1a\n";
     appendChunk(png, "IHDR", header);
-    appendChunk(png, "IDAT", store(rows));
+    appendChunk(png, "IDAT", pack(rows));
     appendChunk(png, "IEND", {});
     return png;
 }

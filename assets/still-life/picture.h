@@ -30,7 +30,7 @@ Picture draw(int width, int height, const std::function<Pixel(double u, double v
 /// repeat.
 Picture drawNormals(int width, int height, const std::function<double(double u, double v)> &at);
 
-/// A PNG of 8 bits a channel, with alpha where `hasAlpha`, its pixels stored and not packed.
+/// A PNG of 8 bits a channel, with alpha where `hasAlpha`.
 std::string encodePng(const Picture &picture, bool hasAlpha);
 
 /// Writes such a file. Whether it could.
