@@ -1,4 +1,4 @@
-# From shaders/*/*.comp to arrays of SPIR-V in the program:
+# From shaders/*/*.comp to SPIR-V in the program, packed:
 #
 #   glslangValidator -> kernel_tool decorate -> spirv-opt -> kernel_tool embed, which numbers the ids anew
 #
@@ -25,7 +25,7 @@ add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT
                ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/renumber.cpp)
 target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
-target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ${XXHASH_LIBRARY})
+target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ZLIB::ZLIB ${XXHASH_LIBRARY})
 hyalite_warnings(kernel_tool)
 
 foreach(tool IN ITEMS glsl_to_cpp glsl_probes layout_macros)
@@ -46,7 +46,7 @@ add_custom_target(layout_macros_header DEPENDS ${PROJECT_BINARY_DIR}/kernels/lay
 
 # hyalite_kernel(TARGET VARIABLE SOURCE [UNOPTIMISED] [INCLUDES FOLDER] [DEFINITIONS NAME=VALUE...])
 #
-# Embeds SOURCE, a path, into TARGET as the array VARIABLE of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is always
+# Embeds SOURCE, a path, into TARGET as VARIABLE, a KernelWords of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is always
 # built anew. With UNOPTIMISED functions stay as they are written, for tests that look at them. Includes are looked for in
 # FOLDER first. The target property HYALITE_KERNELS lists all variables, HYALITE_DEFINITIONS_<VARIABLE> the definitions.
 function(hyalite_kernel target variable source)

@@ -1,7 +1,7 @@
 // Steps of the build between glslang and the program, on files of SPIR-V (cmake/Shaders.cmake):
 //
 //   kernel_tool decorate IN.spv OUT.spv       marks every float operation NoContraction; refuses what has no fixed rounding
-//   kernel_tool embed IN.spv VARIABLE OUT.h   writes an array for C++, its ids without gaps, and its hash
+//   kernel_tool embed IN.spv VARIABLE OUT.h   writes it for C++, packed, its ids without gaps, and its hash
 #include "host/base/hash.h"
 #include "host/gpu/spirv/decorate.h"
 #include "host/gpu/spirv/renumber.h"
@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <zlib.h>
 
 namespace {
 
@@ -41,19 +43,34 @@ void decorate(const std::string &from, const std::string &to) {
     write(to, std::string(reinterpret_cast<const char *>(words.data()), words.size() * sizeof(words[0])));
 }
 
+/// As a zlib stream, whose last word may have zeros behind it.
+std::vector<std::uint32_t> pack(const std::vector<std::uint32_t> &words) {
+    const auto size = static_cast<uLong>(words.size() * sizeof(words[0]));
+    uLongf packedSize = compressBound(size);
+    std::vector<std::uint32_t> packed(packedSize / sizeof(words[0]) + 1);
+    if (compress2(reinterpret_cast<Bytef *>(packed.data()), &packedSize,
+                  reinterpret_cast<const Bytef *>(words.data()), size, Z_BEST_COMPRESSION) != Z_OK)
+        throw std::runtime_error("zlib cannot pack it");
+    packed.resize((packedSize + sizeof(words[0]) - 1) / sizeof(words[0]));
+    return packed;
+}
+
 void embed(const std::string &from, const std::string &variable, const std::string &to) {
     const std::vector<std::uint32_t> words = hyalite::core::gpu::renumber(read(from));
     const std::string hash =
         hyalite::core::hashText(hyalite::core::hashBytes(std::as_bytes(std::span(words))));
-    std::string text = "#pragma once\n#include <cstdint>\n\nconst std::uint64_t " + variable + "Hash = 0x" +
-                       hash + ";\nconst std::uint32_t " + variable + "[] = {";
+    std::string text = "#pragma once\n#include \"shaders/embedded_kernels.h\"\n\nconst std::uint64_t " +
+                       variable + "Hash = 0x" + hash + ";\nstatic const std::uint32_t " + variable +
+                       "Packed[] = {";
     std::size_t count = 0;
-    for (const std::uint32_t word : words) {
+    const std::vector<std::uint32_t> packed = pack(words);
+    for (const std::uint32_t word : packed) {
         char number[32];
         std::snprintf(number, sizeof(number), "%s0x%08x,", count++ % 8 == 0 ? "\n    " : " ", word);
         text += number;
     }
-    write(to, text + "\n};\n");
+    write(to, text + "\n};\nconst hyalite::core::KernelWords " + variable + "(" + variable + "Packed, " +
+                  std::to_string(words.size()) + ");\n");
 }
 
 } // namespace

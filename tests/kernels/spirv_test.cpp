@@ -32,7 +32,7 @@ TEST(EmbeddedKernels, AreAllListed) {
 
 TEST(EmbeddedKernels, HaveTheirHashes) {
     for (const EmbeddedKernel &kernel : allKernels())
-        EXPECT_EQ(kernel.hash, hashBytes(std::as_bytes(kernel.words))) << kernel.name;
+        EXPECT_EQ(kernel.hash, hashBytes(std::as_bytes(kernel.words.get()))) << kernel.name;
 }
 
 TEST(EmbeddedKernels, UseExactOperationsOnly) {
@@ -148,7 +148,8 @@ TEST(FloatControls, AreAddedInTheirSections) {
 
 TEST(FloatControls, LeaveTheRestAsItIs) {
     for (const EmbeddedKernel &kernel : allKernels()) {
-        const std::vector<std::uint32_t> original(kernel.words.begin(), kernel.words.end());
+        const std::span<const std::uint32_t> given = kernel.words;
+        const std::vector<std::uint32_t> original(given.begin(), given.end());
         EXPECT_EQ(gpu::addFloatControls(kernel.words, {}), original);
         const std::vector<std::uint32_t> words = gpu::addFloatControls(kernel.words, {true, true});
         // Two capabilities of 2 words, an extension of 7, two modes of 4.
