@@ -1,5 +1,9 @@
 # The libraries that the program is made of. cmake/run.sh installs Debian's packages of them.
 find_package(Vulkan REQUIRED)
+if(HYALITE_ARCHIVE)
+    set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
+    add_link_options(-static-libstdc++ -static-libgcc)
+endif()
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)

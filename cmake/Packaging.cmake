@@ -1,4 +1,5 @@
-# `cpack` in the build folder makes a Debian package of what `cmake --install` installs.
+# `cpack` in the build folder makes a Debian package of what `cmake --install` installs, or, of a build for an archive, the
+# archive.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hyalite)
 set(CPACK_PACKAGE_CONTACT "The Hyalite developers <hyalite@example.org>")
@@ -10,4 +11,15 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 # The libraries' packages, by dpkg-shlibdeps; and a driver, of which any will do.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
+if(HYALITE_ARCHIVE)
+    set(CPACK_GENERATOR TXZ)
+    string(TOLOWER ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR} system)
+    set(CPACK_PACKAGE_FILE_NAME hyalite-${PROJECT_VERSION}-${system})
+    if(HYALITE_LAVAPIPE_FOLDER)
+        string(APPEND CPACK_PACKAGE_FILE_NAME -lavapipe)
+    endif()
+    set(CPACK_INCLUDE_TOPLEVEL_DIRECTORY OFF)
+    set(CPACK_PACKAGING_INSTALL_PREFIX /hyalite-${PROJECT_VERSION})
+    set(CPACK_ARCHIVE_THREADS 1) # blocks of several threads would not know each other
+endif()
 include(CPack)

@@ -3,12 +3,15 @@
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs the tests
-#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, and of the farm
+#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, of the archive and of the farm
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
 #                                    them or those named: parallel, mpi, slurm, image, kubernetes
+#   cmake/run.sh test-archive        archives, with lavapipe and without, in bare systems; as root
 #   cmake/run.sh test-view           the page of `hyalite view`, in Chromium
 #   cmake/run.sh build               builds only
+#   cmake/run.sh archive [--with-lavapipe]   an archive for any Linux, build/hyalite-VERSION-linux-x86_64.tar.xz, which needs
+#                                    glibc alone; with lavapipe, a larger one, which needs no driver either
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
@@ -30,6 +33,8 @@ needed_for_python=(python3-dev pybind11-dev python3-numpy)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs "${needed_for_python[@]}"
                   python3-pytest python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick
                   python3-openimageio)
+needed_for_archive=(dpkg-dev binutils xz-utils)
+needed_for_archive_with_lavapipe=(patchelf)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")
 needed_for_view=(chromium nodejs)
@@ -156,12 +161,22 @@ test-all)
     build_all ON
     ctest --test-dir "$build" --build-config All --output-on-failure --parallel "$(nproc)"
     "$root/tests/drivers/run.sh" "$build" whole
+    "$root/cmake/run.sh" test-archive
     exec "$root/cmake/run.sh" test-farm
     ;;
 test-drivers)
     install_for_tests
     build_all ON
     exec "$root/tests/drivers/run.sh" "$build"
+    ;;
+test-archive)
+    install_missing mmdebstrap
+    version=$(sed -n 's/^project(hyalite VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+    archive=$root/build/hyalite-$version-linux-$(uname -m)
+    "$root/cmake/run.sh" archive --with-lavapipe
+    "$root/tests/archive/systems.sh" "$archive-lavapipe.tar.xz"
+    "$root/cmake/run.sh" archive
+    "$root/tests/archive/systems.sh" "$archive.tar.xz"
     ;;
 test-farm)
     shift
@@ -182,6 +197,28 @@ test-view)
     command -v npm >/dev/null || install_missing npm
     build_all "$(tests_as_before)"
     exec "$root/tests/view/run.sh" "$build" "${@:2}"
+    ;;
+archive)
+    [[ $# -eq 1 || ($# -eq 2 && $2 = --with-lavapipe) ]] || { usage >&2; exit 2; }
+    install_missing "${needed_for_archive[@]}"
+    build=$root/build/archive
+    lavapipe=
+    if [ $# -eq 2 ]; then
+        install_missing "${needed_for_archive_with_lavapipe[@]}"
+        lavapipe=$build/lavapipe
+        mkdir -p "$build"
+        "$root/cmake/lavapipe.sh" "$lavapipe"
+    fi
+    "$root/cmake/static_libraries.sh" "$build/libraries" >"$build/libraries.log" 2>&1 || { cat "$build/libraries.log" >&2; exit 1; }
+    PKG_CONFIG_PATH=$build/libraries/lib/pkgconfig build_all OFF -DHYALITE_ARCHIVE=ON -DHYALITE_MPI=OFF \
+        -DHYALITE_LAVAPIPE_FOLDER="$lavapipe" -DCMAKE_PREFIX_PATH="$build/libraries"
+    rm -f "$build"/hyalite-*.tar.*
+    (cd "$build" && cpack -G TGZ >/dev/null)
+    packed=$(ls "$build"/hyalite-*.tar.gz)
+    archive=$root/build/$(basename "$packed" .gz).xz
+    gzip --decompress --stdout "$packed" | xz -9 --extreme >"$archive" # a sixth less than cpack's
+    rm "$packed"
+    "$root/tests/archive/check.sh" "$archive"
     ;;
 build)
     build_all "$(tests_as_before)"

@@ -9,6 +9,7 @@
 #include "host/cli/manual.h"
 #include "host/gpu/vk/instance.h"
 #include "host/import/assets.h"
+#include "host/process/bundled_driver.h"
 #include "host/process/process.h"
 
 #include <fmt/format.h>
@@ -188,7 +189,10 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
                           })
         ->trigger_on_parse() // before CLI11 from 2.5 on demands a command
         ->group("");
-    app.parse_complete_callback(requireThreadCount); // of a command that runs
+    app.parse_complete_callback([] { // of a command that runs
+        requireThreadCount();
+        offerBundledDriver();
+    });
     try {
         std::vector<char *> words = withoutHelpCommand(arguments, app);
         app.parse(static_cast<int>(words.size()), words.data());
