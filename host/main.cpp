@@ -153,6 +153,7 @@ ExitCode run(std::span<char *> arguments, CommandContext &context) {
     addVerifyCommand(app, context);
     addProfileCommand(app, context);
     addDevicesCommand(app, context);
+    addDoctorCommand(app, context);
     addInspectCommand(app, context);
     addDiffCommand(app, context);
     addToneMapCommand(app, context);

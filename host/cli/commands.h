@@ -21,6 +21,7 @@ void addRenderCommand(CLI::App &app, CommandContext &context);
 void addCompareCommand(CLI::App &app, CommandContext &context);
 void addDenoiseCommand(CLI::App &app, CommandContext &context);
 void addDevicesCommand(CLI::App &app, CommandContext &context);
+void addDoctorCommand(CLI::App &app, CommandContext &context);
 void addDiffCommand(CLI::App &app, CommandContext &context);
 void addInspectCommand(CLI::App &app, CommandContext &context);
 void addMergeCommand(CLI::App &app, CommandContext &context);

@@ -63,6 +63,20 @@ std::vector<std::filesystem::path> assetFolders() {
     return folders;
 }
 
+std::filesystem::path shippedFile(const std::filesystem::path &path) {
+    std::vector<std::string> lookedAt;
+    for (const std::filesystem::path &folder : assetFolders()) {
+        std::error_code error;
+        if (std::filesystem::is_regular_file(folder / path, error))
+            return folder / path;
+        lookedAt.push_back((folder / path).string());
+    }
+    throw Error(ErrorKind::BadInput,
+                fmt::format("a shipped file is missing: looked for {}; set HYALITE_ASSETS to the "
+                            "folder that has it",
+                            fmt::join(lookedAt, " and ")));
+}
+
 std::vector<std::string> availableScenes() {
     std::set<std::string> names;
     for (const std::filesystem::path &folder : assetFolders()) {

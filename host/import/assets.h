@@ -12,6 +12,9 @@ namespace hyalite::core {
 /// from, as a program, a shared library or a module. They need not exist.
 [[nodiscard]] std::vector<std::filesystem::path> assetFolders();
 
+/// The file of this path, such as "verify/films.json", in the first asset folder that has it. Throws Error{BadInput}.
+[[nodiscard]] std::filesystem::path shippedFile(const std::filesystem::path &path);
+
 /// The sorted names of the shipped scenes: scenes/NAME.json or scenes/NAME.glb in any asset folder.
 [[nodiscard]] std::vector<std::string> availableScenes();
 

@@ -6,37 +6,19 @@
 #include "host/import/assets.h"
 #include "host/scene/names.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <span>
-#include <system_error>
 
 namespace hyalite::core {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr Interval versions{1, 1'000'000};
 constexpr Interval slotCounts{1, 2};
 constexpr std::size_t maxFilmCount = 1000;
-
-fs::path findFolder() {
-    std::vector<std::string> lookedAt;
-    for (const fs::path &assets : assetFolders()) {
-        std::error_code error;
-        if (fs::is_regular_file(assets / "verify" / "films.json", error))
-            return assets / "verify";
-        lookedAt.push_back((assets / "verify" / "films.json").string());
-    }
-    throw Error(ErrorKind::BadInput,
-                fmt::format("the shipped films are missing: looked for {}", fmt::join(lookedAt, " and ")));
-}
 
 /// 16 hexadecimal digits, as hashText() writes them.
 std::uint64_t readHash(const JsonNode &node) {
@@ -67,8 +49,8 @@ std::vector<std::string> ShippedFilms::sceneNames() const {
 
 ShippedFilms readShippedFilms() {
     ShippedFilms shipped;
-    shipped.folder = findFolder();
-    const fs::path file = shipped.folder / "films.json";
+    const std::filesystem::path file = shippedFile("verify/films.json");
+    shipped.folder = file.parent_path();
     const std::string fileName = file.string();
     const nlohmann::json document = readJsonFile(file);
     constexpr std::array<std::string_view, 2> keys{"version", "films"};

@@ -2,9 +2,9 @@
 
 #include "host/base/error.h"
 #include "host/engine/open_backends.h"
-#include "host/engine/prepare.h"
 #include "host/gpu/renderer.h"
 #include "host/image/metrics.h"
+#include "host/lab/trials.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,29 +21,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A scene for each workload, with enough samples per pixel to fill the lanes of a subgroup.
-struct Trial {
-    gpu::Workload workload;
-    const char *scene;
-    int samplesPerPixel;
-};
-
-constexpr std::array<Trial, gpu::workloadNames.size()> trials{{{gpu::Workload::Spheres, "spheres", 4},
-                                                               {gpu::Workload::Triangles, "cat", 8},
-                                                               {gpu::Workload::Shading, "studio-cat", 8}}};
-constexpr int imageSide = 192; // pixels
 constexpr int rounds = 4;
 constexpr double gainNeeded = 1.05; // over the default kernel, in each round: less is noise
 constexpr double shareNeeded =
     0.5; // of the best rate in the first round: slower kernels are not measured again
 
 KernelRates measure(const Trial &trial, const std::string &deviceName, Observer &observer) {
-    SceneOptions options;
-    options.scene = trial.scene;
-    options.width = options.height = imageSide;
-    options.settings.push_back(
-        {[&trial](RenderSettings &settings) { settings.samplesPerPixel = trial.samplesPerPixel; }});
-    const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
+    const PreparedScene scene = prepareTrial(trial);
     observer.beforeDriver(processorsFor(0, scene));
     const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), deviceName);
     const RenderSettings &settings = scene.loaded.settings;

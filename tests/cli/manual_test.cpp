@@ -38,7 +38,7 @@ TEST_F(Manual, HasEveryOptionOfEveryCommand) {
                              "\\-o,\\-\\-output FILE", ".SH EXIT STATUS", "stopped by SIGHUP"})
         EXPECT_TRUE(contains(page, part)) << part;
     for (const char *command :
-         {"render", "compare", "verify", "profile", "devices", "inspect", "denoise", "diff", "tonemap"}) {
+         {"render", "compare", "verify", "profile", "devices", "doctor", "inspect", "denoise", "diff", "tonemap"}) {
         const std::string help = printed(std::string(command) + " --help");
         std::size_t count = 0;
         const std::regex option("(^|\\n)  (-\\w,)?(--[a-z-]+)");

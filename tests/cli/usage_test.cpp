@@ -48,7 +48,7 @@ TEST_F(Usage, HelpListsTheCommandsAndTheExitCodes) {
 }
 
 TEST_F(Usage, HelpFitsATerminalAndShowsNoInnards) {
-    for (const char *command : {"", "render ", "compare ", "diff ", "devices ", "inspect "}) {
+    for (const char *command : {"", "render ", "compare ", "diff ", "devices ", "doctor ", "inspect "}) {
         const std::string page = run(command + std::string("--help")).output;
         EXPECT_FALSE(contains(page, "\n\n\n")) << page;
         std::istringstream lines(page);

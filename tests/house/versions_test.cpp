@@ -1,6 +1,7 @@
 // The guide's table of versions says what files say.
 #include "host/api/version.h"
 #include "host/film/checkpoint.h"
+#include "host/lab/doctor_json.h"
 #include "host/lab/scene_summary_json.h"
 #include "host/report/profile_json.h"
 #include "tests/house/source_text.h"
@@ -27,6 +28,7 @@ TEST(Versions, InTheGuideAreThoseOfFiles) {
     expectRow("checkpoints and parts", std::to_string(checkpointVersion));
     expectRow("reports of `profile`, which are baselines", std::to_string(profileVersion));
     expectRow("documents of `inspect --json`", std::to_string(inspectVersion));
+    expectRow("reports of `doctor`", std::to_string(doctorVersion));
     const nlohmann::json films = nlohmann::json::parse(textOf(root / "assets/verify/films.json"));
     expectRow("films of `verify`", films.at("version").dump());
     const std::string sums = textOf(root / "tests/bits/cases.txt");
