@@ -162,7 +162,7 @@ Json measure(const Patient &patient, const TimeLimit &limit, Observer &observer)
 
 void examineOne(Patient &patient, const ShippedFilms &shipped, const TimeLimit &limit, Observer &observer,
                 const RunApart &runApart) {
-    constexpr double shareOfBits = 0.7;
+    constexpr double shareOfBits = 0.5;
     try {
         if (limit.isReached())
             return;

@@ -17,7 +17,8 @@ class Doctor : public FaultyDevice {
     [[nodiscard]] Json report() const { return Json::parse(load("r.json")); }
     [[nodiscard]] std::set<std::string> problems() const {
         std::set<std::string> codes;
-        for (const Json &finding : report().at("findings"))
+        const Json document = report();
+        for (const Json &finding : document.at("findings"))
             if (finding.at("isProblem"))
                 codes.insert(finding.at("code").get<std::string>());
         return codes;
@@ -105,8 +106,9 @@ TEST_F(Doctor, SaysThatAVariableHidesDrivers) {
 }
 
 TEST_F(Doctor, SaysWhyADeviceCannotBeUsed) {
-    const Outcome outcome =
-        runFaulty("doctor --report r.json" + atOnce, "", "few-images,few-storage-buffers");
+    Surroundings surroundings;
+    surroundings.environment["HYALITE_FAKES"] = "few-images,few-storage-buffers";
+    const Outcome outcome = runIn(surroundings, "doctor --report r.json" + atOnce);
     EXPECT_EQ(outcome.exitCode, 4) << outcome;
     EXPECT_TRUE(problems().contains("unusable-device")) << outcome;
     EXPECT_TRUE(contains(outcome.output, "NOT usable: ")) << outcome;

@@ -37,8 +37,8 @@ TEST_F(Manual, HasEveryOptionOfEveryCommand) {
     for (const char *part : {".SS \"render\"", ".SS \"verify\"", "\\-\\-checkpoint\\-interval SECONDS",
                              "\\-o,\\-\\-output FILE", ".SH EXIT STATUS", "stopped by SIGHUP"})
         EXPECT_TRUE(contains(page, part)) << part;
-    for (const char *command :
-         {"render", "compare", "verify", "profile", "devices", "doctor", "inspect", "denoise", "diff", "tonemap"}) {
+    for (const char *command : {"render", "compare", "verify", "profile", "devices", "doctor", "inspect",
+                                "denoise", "diff", "tonemap"}) {
         const std::string help = printed(std::string(command) + " --help");
         std::size_t count = 0;
         const std::regex option("(^|\\n)  (-\\w,)?(--[a-z-]+)");

@@ -239,8 +239,9 @@ TEST_F(Readme, HasCommandsForItsThreeJobs) {
 
 TEST_F(Readme, GivesTheScriptAWordOfItsOwnOrACommand) {
     // The script's own words; every other word goes to the program.
-    const std::set<std::string> ownWords{"showcase", "test",  "test-all", "test-drivers", "test-view",
-                                         "build",    "bench", "sanitize", "check",        "fuzz"};
+    const std::set<std::string> ownWords{"showcase",  "test",  "test-all", "test-drivers",
+                                         "test-view", "build", "bench",    "sanitize",
+                                         "check",     "fuzz",  "archive",  "test-archive"};
     const std::string help = run("--help").output;
     int callCount = 0;
     for (const std::string &file : documents())
