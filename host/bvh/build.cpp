@@ -97,7 +97,7 @@ class Builder {
         return range.size() <= leafSize_ && std::ranges::any_of(range, isAlone) ? 1 : leafSize_;
     }
 
-    [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const Bounds &bounds) const {
+    [[nodiscard]] std::size_t split(std::span<BuildTriangle> range, const RangeBounds &bounds) const {
         return kind_ == TreeKind::Sah ? splitBySah(range, bounds, leafSizeFor(range))
                                       : splitAtMidpoint(range, bounds.triangles.box(), leafSizeFor(range));
     }
@@ -105,7 +105,7 @@ class Builder {
     /// Finds the task's box and reorders its triangles; returns where the right child's begin, or the task's begin for
     /// a leaf.
     std::uint32_t divide(Box &box, const Task &task) const {
-        const Bounds bounds(trianglesOf(task));
+        const RangeBounds bounds(trianglesOf(task));
         box = bounds.triangles.box();
         std::size_t leftCount = 0;
         if (task.size() > 1 && !mustHalve(task.size(), task.depth))
@@ -250,7 +250,8 @@ Bvh buildTree(TreeKind kind, std::span<const TriangleMesh> meshes, std::vector<B
     if (kind == TreeKind::Sah && leafSize > 1)
         isJoined = joinTriangles(meshes, items);
     if (kind == TreeKind::None)
-        bvh.nodes.push_back({Bounds(items).triangles.box(), 0, static_cast<std::uint32_t>(items.size())});
+        bvh.nodes.push_back(
+            {RangeBounds(items).triangles.box(), 0, static_cast<std::uint32_t>(items.size())});
     else
         bvh = Builder(kind, items, isJoined, firstInstance, leafSize).build();
     bvh.firstInstance = firstInstance;

@@ -184,7 +184,7 @@ Cut cutOfPair(std::span<const BuildTriangle> range, const Binning &binning, floa
 
 } // namespace
 
-std::size_t splitBySah(std::span<BuildTriangle> range, const Bounds &bounds, std::size_t leafSize) {
+std::size_t splitBySah(std::span<BuildTriangle> range, const RangeBounds &bounds, std::size_t leafSize) {
     const std::size_t binCount = binCountFor(range.size());
     const Binning binning(bounds.centroids, binCount);
     // If the longest side is scaled to 1, areas of any scene are finite floats.

@@ -15,7 +15,7 @@ namespace hyalite::core {
 
 /// The best cut between at most 16 bins on each axis by the surface area heuristic. Wald, "On fast Construction of
 /// SAH-based Bounding Volume Hierarchies", 2007. `bounds` are those of the range.
-[[nodiscard]] std::size_t splitBySah(std::span<BuildTriangle> range, const Bounds &bounds,
+[[nodiscard]] std::size_t splitBySah(std::span<BuildTriangle> range, const RangeBounds &bounds,
                                      std::size_t leafSize);
 
 /// Halves the range by the centroids' order on the longest axis of `box`; ties go by input index.

@@ -61,11 +61,11 @@ struct WideBox {
 };
 
 /// Bounds of a range of triangles and of their centroids.
-struct Bounds {
+struct RangeBounds {
     WideBox triangles = WideBox::empty();
     WideBox centroids = WideBox::empty();
 
-    explicit Bounds(std::span<const BuildTriangle> range) {
+    explicit RangeBounds(std::span<const BuildTriangle> range) {
         for (const BuildTriangle &triangle : range) {
             triangles.extend(WideBox(triangle));
             centroids.extendByCentroid(triangle);

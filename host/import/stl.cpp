@@ -304,7 +304,7 @@ bool hasBinarySize(std::span<const char> bytes) {
 }
 
 /// Without a byte order mark, and the padding behind it: zeros, and the end of file of DOS.
-std::span<const char> textOf(std::span<const char> bytes) {
+std::span<const char> withoutPadding(std::span<const char> bytes) {
     constexpr std::string_view padding("\0\x1A \t\r\n", 6);
     const std::size_t end = std::string_view(bytes.data(), bytes.size()).find_last_not_of(padding) + 1;
     const std::size_t begin = std::min(byteOrderMarkBytes(bytes), end);
@@ -330,7 +330,7 @@ ObjMesh loadStl(const std::filesystem::path &file, const MeshTransform &transfor
     const std::string fileName = file.string();
     const std::vector<char> whole = readWholeFile(file);
     const bool isInBinary = isBinary(whole);
-    const std::span<const char> bytes = isInBinary ? std::span(whole) : textOf(whole);
+    const std::span<const char> bytes = isInBinary ? std::span(whole) : withoutPadding(whole);
     bool areFar = false;
     const auto read = [&](const glm::dvec3 &origin) {
         MeshBuilder builder(fileName, transform, origin, isInBinary ? PlaceUnit::Byte : PlaceUnit::Line);

@@ -122,7 +122,7 @@ TEST(Split, WhatCentroidsDoNotSeparateIsLeftWholeButForTheMedian) {
     std::vector<BuildTriangle> triangles = pointsOnX({2.0f, 2.0f, 2.0f, 2.0f, 2.0f});
     for (const std::size_t leafSize : {1u, 5u}) {
         EXPECT_EQ(splitAtMidpoint(triangles, boxOf(triangles), leafSize), 0u);
-        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), leafSize), 0u);
+        EXPECT_EQ(splitBySah(triangles, RangeBounds(triangles), leafSize), 0u);
     }
     EXPECT_EQ(splitAtMedian(triangles, boxOf(triangles)), 2u);
     EXPECT_EQ(firstIndices(triangles, 2), (Indices{0, 1}));
@@ -138,7 +138,7 @@ TEST(Split, SahCutsBetweenTwoClustersOfUnequalSize) {
             position[axis] += i % 5 == 0 && i < 15 ? -10.0f : 10.0f;
             triangles.push_back(pointAt(position, i));
         }
-        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 1), 3u);
+        EXPECT_EQ(splitBySah(triangles, RangeBounds(triangles), 1), 3u);
         EXPECT_EQ(firstIndices(triangles, 3), (Indices{0, 5, 10}));
     }
 }
@@ -172,7 +172,7 @@ TEST(Split, SahFindsTheCheapestOfItsCandidates) {
                 best = cut;
             }
         }
-        EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 1), best);
+        EXPECT_EQ(splitBySah(triangles, RangeBounds(triangles), 1), best);
     }
 }
 
@@ -187,13 +187,13 @@ TEST(Split, SahMakesALeafOnlyWhereItIsCheaperAndAllowed) {
         triangle.inputIndex = i;
         triangles.push_back(triangle);
     }
-    EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 4), 0u);
-    EXPECT_GT(splitBySah(triangles, Bounds(triangles), 3), 0u);
+    EXPECT_EQ(splitBySah(triangles, RangeBounds(triangles), 4), 0u);
+    EXPECT_GT(splitBySah(triangles, RangeBounds(triangles), 3), 0u);
     // Two far apart: worth a node even though a leaf could hold both.
     triangles = {triangles[0], triangles[1]};
     triangles[1].box = {glm::vec3(99.0f), glm::vec3(101.0f)};
     triangles[1].centroid = glm::vec3(100.0f);
-    EXPECT_EQ(splitBySah(triangles, Bounds(triangles), 64), 1u);
+    EXPECT_EQ(splitBySah(triangles, RangeBounds(triangles), 64), 1u);
 }
 
 } // namespace
