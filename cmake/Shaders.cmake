@@ -14,12 +14,11 @@ if(NOT SPIRV_OPT)
 endif()
 
 set(HYALITE_KERNEL_PASSES
-    --wrap-opkill --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
-    --scalar-replacement --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store
-    --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
+    --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --scalar-replacement
+    --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store --simplify-instructions
     --eliminate-dead-code-aggressive --eliminate-dead-branches --merge-blocks --ssa-rewrite --if-conversion
-    --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts
-    --redundancy-elimination --eliminate-dead-code-aggressive --cfg-cleanup)
+    --simplify-instructions --eliminate-dead-code-aggressive --vector-dce --redundancy-elimination
+    --eliminate-dead-code-aggressive)
 
 add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT_SOURCE_DIR}/host/base/hash.cpp
                ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/renumber.cpp)
@@ -27,12 +26,14 @@ target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
 target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ZLIB::ZLIB ${XXHASH_LIBRARY})
 hyalite_warnings(kernel_tool)
+hyalite_compile_fast(kernel_tool)
 
 foreach(tool IN ITEMS glsl_to_cpp glsl_probes layout_macros)
     add_executable(${tool} ${PROJECT_SOURCE_DIR}/cmake/${tool}.cpp ${PROJECT_SOURCE_DIR}/cmake/glsl_reader.cpp
                    ${PROJECT_SOURCE_DIR}/cmake/leaf_declarations.cpp)
     target_include_directories(${tool} PRIVATE ${PROJECT_SOURCE_DIR})
     hyalite_warnings(${tool})
+    hyalite_compile_fast(${tool})
 endforeach()
 
 # The fields of the records, for kernels and tests.
