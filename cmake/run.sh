@@ -12,6 +12,7 @@
 #   cmake/run.sh build               builds only
 #   cmake/run.sh archive [--with-lavapipe]   an archive for any Linux, build/hyalite-VERSION-linux-x86_64.tar.xz, which needs
 #                                    glibc alone; with lavapipe, a larger one, which needs no driver either
+#   cmake/run.sh packages            installs what check, test, test-drivers, test-view, and test-farm parallel mpi need
 #   cmake/run.sh bench [OPTION...]   measures speed beside Embree's, some minutes; --benchmark_filter=^rays less of it,
 #                                    --driver=mesa or --driver=swiftshader also images by drivers that it fetches
 #   cmake/run.sh sanitize            builds with the address and undefined behaviour sanitizers, and runs all tests
@@ -19,8 +20,8 @@
 #   cmake/run.sh fuzz SECONDS        feeds each reader of files with inputs made up by libFuzzer, for so many seconds
 #   cmake/run.sh ARGUMENT...         hyalite ARGUMENT..., for instance: render cat -o cat.png
 #
-# Where all packages are there already it needs neither root nor network. The build is in build/release, of sanitize in
-# build/sanitize, of fuzz in build/fuzz.
+# Where all packages are there already it needs neither root nor network. The build is in build/release, of check in
+# build/check, of sanitize in build/sanitize, of fuzz in build/fuzz.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -65,7 +66,8 @@ install_missing() {
         fi
         as_root=(sudo)
     fi
-    "${as_root[@]}" apt-get update -qq >&2
+    [ -n "${has_lists:-}" ] || "${as_root[@]}" apt-get update -qq >&2
+    has_lists=1
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
@@ -115,12 +117,24 @@ build_all() {
     rm -f "$log"
 }
 
-# .clang-tidy says what is looked for. Headers of libraries take most of the time, so that sources are read as they were
-# compiled, many as one.
+# Folders of host/ that are read as one by clang-tidy. Where two define the same file-local name, it says so: one gets another
+# name, or the folder another row.
+read_as_one=("base bvh farm image" "api engine jobs reference scene" "film gpu import packing" "cli lab process report view")
+
+# .clang-tidy says what is looked for. Headers of libraries take most of the time, so that folders are read several as one,
+# and other sources as they were compiled.
 check_by_clang_tidy() {
-    sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/compile_commands.json" |
-        grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" | sort -u |
-        xargs -r -d '\n' ls -S | # the longest first
+    local folders folder units=$build/units together="${read_as_one[*]}"
+    rm -rf "$units" && mkdir "$units"
+    for folders in "${read_as_one[@]}"; do
+        for folder in $folders; do
+            cat "$build/host/$folder"/CMakeFiles/*.dir/Unity/*.cxx
+        done >"$units/${folders// /_}.cpp"
+    done
+    { sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/compile_commands.json" |
+          grep -F -e "$build/host/" -e "$build/CMakeFiles/" -e "$root/host/" -e "$root/cmake/" |
+          grep -v -E "/host/(${together// /|})/.*/Unity/"
+      ls "$units"/*; } | sort -u | xargs -r -d '\n' ls -S | # the longest first
         xargs -P "$(nproc)" -I UNIT clang-tidy-14 --quiet --config-file="$root/.clang-tidy" UNIT -- -std=c++20 -fopenmp \
             -DHYALITE_VERSION='"0"' -DHYALITE_DATA_FOLDER='"/"' -I"$root" -I"$build" -I"$build/include" \
             -I"$build/kernels" $(/usr/bin/python3-config --includes 2>/dev/null) -isystem /usr/include/Imath 2>&1 |
@@ -138,14 +152,21 @@ if [ "$1" = check ]; then
     install_missing "${needed[@]}" "${needed_for_check[@]}"
     cd "$root"
     git ls-files 'assets/*.cpp' 'assets/*.h' 'cmake/*.cpp' 'host/*.cpp' 'host/*.h' 'shaders/*.cpp' 'tests/*.cpp' 'tests/*.h' |
-        xargs clang-format-14 --dry-run -Werror
+        xargs -P "$(nproc)" -n 64 clang-format-14 --dry-run -Werror
+    build=$root/build/check
     target=hyalite_leaves_header # the C++ that is made from shaders
-    build_all "$(tests_as_before)"
+    build_all OFF
     check_by_clang_tidy
     exit
 fi
 install_missing "${needed[@]}"
 case $1 in
+packages)
+    command -v npm >/dev/null || needed_for_view+=(npm)
+    install_missing "${needed_for_tests[@]}" "${needed_for_check[@]}" "${needed_for_view[@]}" ${needed_for_farm[parallel]} \
+        ${needed_for_farm[mpi]}
+    install_for_tests
+    ;;
 showcase)
     build_all "$(tests_as_before)"
     "$build/bin/hyalite" render spheres -o spheres.png
