@@ -12,4 +12,5 @@ if ! "$python" -c "import numpy, pytest" || { [[ $folder == */installed ]] && ! 
 fi
 export HYALITE_BUILD=$build HYALITE_SOURCE=$(cd "$(dirname "$0")/.." && pwd) HYALITE_PROGRAM=$build/bin/hyalite
 export PYTHONPATH=$build/python PYTHONDONTWRITEBYTECODE=1
+export GALLIVM_PERF=nopt LP_NATIVE_VECTOR_WIDTH=128 # lavapipe compiles faster, as in tests/fixtures/test_extent.h
 exec "$python" -m pytest -q -p no:cacheprovider "$folder"
