@@ -3,9 +3,9 @@
 #
 #   cmake/lavapipe.sh FOLDER
 #
-# FOLDER has the driver of this system's package mesa-vulkan-drivers, the libraries that it needs but for those of glibc, each
-# of which finds the others beside itself, and lvp_icd.json, which names the driver relative to itself. FOLDER.sources lists
-# the files that it has copied.
+# FOLDER has the driver of this system's package mesa-vulkan-drivers, the libraries that it needs except those of glibc, each
+# of which finds the others beside itself, and lvp_icd.json, which names the driver relative to itself. FOLDER.sources
+# lists the files that it has copied.
 set -euo pipefail
 
 command -v patchelf >/dev/null || { echo "lavapipe.sh: patchelf is missing: install the package of that name" >&2; exit 1; }

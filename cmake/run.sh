@@ -3,7 +3,7 @@
 #
 #   cmake/run.sh showcase            renders spheres.png and cat.png into this folder
 #   cmake/run.sh test                builds and runs the tests
-#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, of the archive and of the farm
+#   cmake/run.sh test-all            all of them, with more kernels and draws, on more drivers, of archives and the farm
 #   cmake/run.sh test-drivers        the tests of devices on another Mesa and on SwiftShader, which it fetches
 #   cmake/run.sh test-farm [NAME...] one picture by several processes, as the templates of assets/farm do it, all of
 #                                    them or those named: parallel, mpi, slurm, image, kubernetes
@@ -223,14 +223,15 @@ archive)
     [[ $# -eq 1 || ($# -eq 2 && $2 = --with-lavapipe) ]] || { usage >&2; exit 2; }
     install_missing "${needed_for_archive[@]}"
     build=$root/build/archive
+    log=$build/libraries.log
     lavapipe=
+    mkdir -p "$build"
     if [ $# -eq 2 ]; then
         install_missing "${needed_for_archive_with_lavapipe[@]}"
         lavapipe=$build/lavapipe
-        mkdir -p "$build"
         "$root/cmake/lavapipe.sh" "$lavapipe"
     fi
-    "$root/cmake/static_libraries.sh" "$build/libraries" >"$build/libraries.log" 2>&1 || { cat "$build/libraries.log" >&2; exit 1; }
+    "$root/cmake/static_libraries.sh" "$build/libraries" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
     PKG_CONFIG_PATH=$build/libraries/lib/pkgconfig build_all OFF -DHYALITE_ARCHIVE=ON -DHYALITE_MPI=OFF \
         -DHYALITE_LAVAPIPE_FOLDER="$lavapipe" -DCMAKE_PREFIX_PATH="$build/libraries"
     rm -f "$build"/hyalite-*.tar.*

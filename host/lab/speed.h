@@ -11,7 +11,7 @@ namespace hyalite::core {
 
 struct SpeedFigure {
     std::string scene;
-    double megaraysPerSecond = 0.0; ///< of the fastest of a few renders
+    double megaraysPerSecond = 0.0; ///< of the fastest of a few renders that take a while
 };
 
 /// Renders the scenes with a device as openBackend() takes it, as `render` would; those that are begun before the limit is

@@ -10,7 +10,8 @@ set -euo pipefail
 archive=$(realpath "$1")
 shift
 [ $# -gt 0 ] || set -- bookworm trixie sid glibc
-command -v mmdebstrap >/dev/null || { echo "systems.sh: mmdebstrap is missing: install the package of that name" >&2; exit 1; }
+command -v mmdebstrap >/dev/null ||
+    { echo "systems.sh: mmdebstrap is missing: install the package of that name" >&2; exit 1; }
 work=$(mktemp -d)
 mounted=()
 clean() {
