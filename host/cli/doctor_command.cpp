@@ -160,8 +160,7 @@ void addDoctorCommand(CLI::App &app, CommandContext &context) {
         "what to examine: all devices and the CPU renderer; cpu; or a device, by index or part of its "
         "name. May be repeated")
         ->default_str("all");
-    addTimeLimit(*command, options->timeLimitSeconds,
-                 "check bits and measure speeds for about this time")
+    addTimeLimit(*command, options->timeLimitSeconds, "check bits and measure speeds for about this time")
         ->default_str("240");
     addOutput(*command, "--report", options->report, "FILE.json", "write all of it as JSON, to be sent");
     command->add_flag("--quiet", options->isQuiet, "show no progress");

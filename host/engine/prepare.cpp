@@ -175,10 +175,11 @@ void overrideSize(const SceneOptions &options, const std::optional<double> &aspe
 /// Throws for a property that only another kind of camera has.
 void requireKind(CameraKind kind, const Camera &camera, std::string_view option, std::string_view lacking) {
     if (camera.kind != kind)
-        throw OverrideError(std::string(option),
-                            fmt::format("found a camera of the type {}, which has no {}; allowed: with one of "
-                                        "the type {}",
-                                        nameIn(cameraNames, camera.kind), lacking, nameIn(cameraNames, kind)));
+        throw OverrideError(
+            std::string(option),
+            fmt::format("found a camera of the type {}, which has no {}; allowed: with one of "
+                        "the type {}",
+                        nameIn(cameraNames, camera.kind), lacking, nameIn(cameraNames, kind)));
 }
 
 /// The size of the image, the field of view and the lens, or the view width.

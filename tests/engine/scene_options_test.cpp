@@ -118,13 +118,15 @@ TEST(SceneOptions, ACameraHasOnlyWhatItsKindHas) {
         }
         return std::string("not refused");
     };
-    EXPECT_EQ(refusal("spheres", "view-width"),
-              "view-width: found a camera of the type perspective, which has no view width; allowed: with one of "
-              "the type orthographic");
+    EXPECT_EQ(
+        refusal("spheres", "view-width"),
+        "view-width: found a camera of the type perspective, which has no view width; allowed: with one of "
+        "the type orthographic");
     const std::string orthographic = HYALITE_SOURCE_DIR "/tests/bits/orthographic.json";
     EXPECT_EQ(refusal(orthographic, "view-width"), "not refused");
     for (const char *name : {"fov", "aperture", "focus-distance"})
-        EXPECT_NE(refusal(orthographic, name).find("allowed: with one of the type perspective"), std::string::npos);
+        EXPECT_NE(refusal(orthographic, name).find("allowed: with one of the type perspective"),
+                  std::string::npos);
     const PreparedScene wide =
         prepareScene(optionsOf(orthographic, {{"view-width", 3.0}}), Source::Dropped, nobody());
     EXPECT_EQ(wide.loaded.scene.camera.viewWidth, 3.0);

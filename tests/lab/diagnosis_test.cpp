@@ -65,9 +65,9 @@ TEST(Diagnosis, SaysThatNoDriverIsInstalled) {
 
 TEST(Diagnosis, SaysWhatADriversLibraryLacks) {
     Machine machine = wellMachine();
-    machine.drivers.push_back(
-        {"/etc/vulkan/icd.d/nvidia_icd.json", "the library that nvidia_icd.json names cannot be loaded: "
-                                              "libXext.so.6: cannot open shared object file"});
+    machine.drivers.push_back({"/etc/vulkan/icd.d/nvidia_icd.json",
+                               "the library that nvidia_icd.json names cannot be loaded: "
+                               "libXext.so.6: cannot open shared object file"});
     const std::vector<Finding> findings = diagnose(machine, std::vector{lavapipe}, "");
     EXPECT_EQ(findings.front().code, "driver-file") << "problems come first";
     EXPECT_NE(findings.front().remedy.find("libxext6"), std::string::npos) << findings.front().remedy;
