@@ -1,5 +1,7 @@
 #include "host/lab/diagnosis.h"
 
+#include "host/gpu/vk/bundled_manifest.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,6 +54,12 @@ void judgeDrivers(const Machine &machine, std::vector<Finding> &findings) {
              fmt::format("install the driver of your graphics card; or {}, whose lavapipe renders on any "
                          "CPU. The device cpu needs none",
                          mesaPackages)});
+    if (machine.variable("VK_DRIVER_FILES").ends_with(gpu::bundledManifest)) {
+        findings.push_back({"bundled-driver", false,
+                            "the archive's own driver, lavapipe, is used: the CPU computes",
+                            "install the driver of your graphics card, if there is one"});
+        return;
+    }
     for (const char *name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
         if (const std::string_view value = machine.variable(name); !value.empty())
             findings.push_back({"driver-variable", false,
@@ -193,7 +201,8 @@ std::vector<Finding> diagnose(const Machine &machine, std::span<const ListedDevi
     judgeDrivers(machine, findings);
     judgeNodes(machine, findings);
     judgeCards(machine, devices, findings);
-    std::ranges::stable_partition(findings, &Finding::isProblem);
+    std::stable_partition(findings.begin(), findings.end(),
+                          [](const Finding &finding) { return finding.isProblem; });
     return findings;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/base/clean_text.h"
 #include "host/base/error.h"
+#include "host/gpu/vk/bundled_manifest.h"
 #include "host/gpu/vk/driver_manifests.h"
 
 #include <fmt/format.h>
@@ -17,8 +18,7 @@ namespace fs = std::filesystem;
 std::optional<fs::path> bundledDriver() {
     std::error_code error;
     const fs::path program = fs::canonical("/proc/self/exe", error);
-    const fs::path manifest =
-        (program.parent_path() / "../lib/hyalite/lavapipe/lvp_icd.json").lexically_normal();
+    const fs::path manifest = (program.parent_path() / ".." / gpu::bundledManifest).lexically_normal();
     return fs::is_regular_file(manifest, error) ? std::optional(manifest) : std::nullopt;
 }
 

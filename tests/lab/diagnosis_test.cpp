@@ -75,6 +75,14 @@ TEST(Diagnosis, SaysWhatADriversLibraryLacks) {
     EXPECT_EQ(problemsOf(machine), Codes{}) << "a driver of programs with 32 bits is no fault";
 }
 
+TEST(Diagnosis, KnowsTheDriverOfAnArchive) {
+    Machine machine = wellMachine();
+    machine.variables = {{"VK_DRIVER_FILES", "/opt/hyalite-0.1.0/lib/hyalite/lavapipe/lvp_icd.json"}};
+    EXPECT_EQ(diagnose(machine, std::vector{lavapipe}, "").back().code, "bundled-driver");
+    machine.variables = {{"VK_DRIVER_FILES", "/opt/other.json"}};
+    EXPECT_EQ(diagnose(machine, std::vector{lavapipe}, "").back().code, "driver-variable");
+}
+
 TEST(Diagnosis, NamesTheGroupOfANodeThatMayNotBeOpened) {
     Machine machine = wellMachine();
     machine.nodes = {{"/dev/dri/renderD128", "render", false}};
