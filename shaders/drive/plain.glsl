@@ -4,10 +4,10 @@
 #error "a lane has one path, and waits for no other"
 #endif
 
-// Runs the sample to its end, or until no steps are left.
+// Runs the sample to its end, or until no steps are left; one pass at least, so that each dispatch gets on.
 void advancePaths() {
     const uint slot = 0u;
-    while (stage[slot] <= stageShadow && hasStepsLeft()) {
+    do {
         beginPath(slot);
         bool isVisibility = stage[slot] == stageShadow;
         traversal[slot].key = keyOfRay(isVisibility ? 1u : 0u);
@@ -22,5 +22,5 @@ void advancePaths() {
         }
         endStage();
         stepsTaken += stepsOfTurn();
-    }
+    } while (stage[slot] <= stageShadow && hasStepsLeft());
 }
