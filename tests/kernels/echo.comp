@@ -32,7 +32,8 @@ layout(set = 0, binding = 18, std430) readonly buffer LightNodeBuffer { LightNod
 layout(set = 0, binding = 19, std430) readonly buffer PairBuffer { TrianglePair pairs[]; };
 layout(set = 0, binding = 20, std430) readonly buffer SampleBuffer { SampleRecord samples[]; };
 layout(set = 0, binding = 21, std430) readonly buffer PlaceBuffer { PlaceRecord places[]; };
-layout(set = 0, binding = 22, std430) writeonly buffer WordBuffer { uint words[]; };
+layout(set = 0, binding = 22, std430) readonly buffer WideBuffer { WideNode wides[]; };
+layout(set = 0, binding = 23, std430) writeonly buffer WordBuffer { uint words[]; };
 
 uint cursor = 0u;
 
@@ -71,5 +72,6 @@ void main() {
     FIELDS_TrianglePair(GIVE, pairs[1])
     FIELDS_SampleRecord(GIVE, samples[1])
     FIELDS_PlaceRecord(GIVE, places[1])
+    FIELDS_WideNode(GIVE, wides[1])
     FIELDS_DispatchConstants(GIVE, dispatch)
 }

@@ -89,6 +89,7 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     const Pair<layout::TrianglePair> trianglePair(Storage);
     const Pair<layout::SampleRecord> sample(Storage);
     const Pair<layout::PlaceRecord> place(Storage);
+    const Pair<layout::WideNode> wide(Storage);
     const layout::DispatchConstants dispatch = fill<layout::DispatchConstants>();
 
     Expected expected;
@@ -114,17 +115,19 @@ TEST(Layout, MeansTheSameBytesToHostAndKernel) {
     EXPECT_FIELDS(TrianglePair, trianglePair.records[1]);
     EXPECT_FIELDS(SampleRecord, sample.records[1]);
     EXPECT_FIELDS(PlaceRecord, place.records[1]);
+    EXPECT_FIELDS(WideNode, wide.records[1]);
     EXPECT_FIELDS(DispatchConstants, dispatch);
     EXPECT_EQ(expected.structCount, layoutStructCount) << "a struct of layout.h is not echoed";
 
     std::vector<std::uint32_t> words(expected.words.get().size());
     const gpu::Buffer output(probeDevice(), "the words", Storage, std::span(words).size_bytes());
-    const std::array<const gpu::Buffer *, 23> buffers{
-        &frame.buffer,      &sphere.buffer,  &light.buffer,    &material.buffer,  &node.buffer,
-        &triangle.buffer,   &normal.buffer,  &film.buffer,     &progress.buffer,  &trace.buffer,
-        &path.buffer,       &pending.buffer, &skip.buffer,     &emitter.buffer,   &texel.buffer,
-        &textureRow.buffer, &texture.buffer, &instance.buffer, &lightNode.buffer, &trianglePair.buffer,
-        &sample.buffer,     &place.buffer,   &output};
+    const std::array<const gpu::Buffer *, 24> buffers{
+        &frame.buffer,    &sphere.buffer,   &light.buffer,     &material.buffer,
+        &node.buffer,     &triangle.buffer, &normal.buffer,    &film.buffer,
+        &progress.buffer, &trace.buffer,    &path.buffer,      &pending.buffer,
+        &skip.buffer,     &emitter.buffer,  &texel.buffer,     &textureRow.buffer,
+        &texture.buffer,  &instance.buffer, &lightNode.buffer, &trianglePair.buffer,
+        &sample.buffer,   &place.buffer,    &wide.buffer,      &output};
     gpu::Kernel(probeDevice(), "echo", echoKernel, {}, buffers).run(dispatch, 1);
     output.download(std::as_writable_bytes(std::span(words)));
     for (std::size_t i = 0; i < words.size(); ++i)
