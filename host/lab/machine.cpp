@@ -1,5 +1,7 @@
 #include "host/lab/machine.h"
 
+#include "host/lab/system_files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,13 +44,6 @@ constexpr std::array variableNames{"VK_DRIVER_FILES",
                                    "HYALITE_BUNDLED_DRIVER",
                                    "HYALITE_VALIDATION"};
 
-std::string firstLineOf(const fs::path &file) {
-    std::ifstream stream(file);
-    std::string line;
-    std::getline(stream, line);
-    return line;
-}
-
 /// The value behind `key` and `separator` of the first line that has it, without quotes and blanks around it.
 std::string valueIn(const fs::path &file, const std::string &key, char separator) {
     std::ifstream stream(file);
@@ -67,16 +62,6 @@ std::string valueIn(const fs::path &file, const std::string &key, char separator
 
 std::uint32_t hexIn(const fs::path &file) {
     return static_cast<std::uint32_t>(std::strtoul(firstLineOf(file).c_str(), nullptr, 16));
-}
-
-/// The names in a folder, sorted; none if it cannot be read.
-std::vector<fs::path> filesIn(const fs::path &folder) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        files.push_back(entry->path());
-    std::ranges::sort(files);
-    return files;
 }
 
 std::vector<GraphicsCard> findCards(const fs::path &root) {
