@@ -32,6 +32,26 @@ std::uint64_t filmBytes(const Crop &crop) {
 
 } // namespace
 
+void Backend::repeat(const PackedScene &scene, const RenderSettings &settings, const Film &expected,
+                     const RepeatHooks &hooks) {
+    for (bool goesOn = true; goesOn;) {
+        Stopwatch watch;
+        const BackendResult result =
+            unlessFailed(render(scene, settings, Film(expected.crop), {.shouldStop = hooks.shouldStop}));
+        const bool isWhole = std::ranges::all_of(result.film.pixels, [&](const layout::FilmPixel &pixel) {
+            return pixel.sampleCount >= static_cast<std::uint32_t>(settings.samplesPerPixel);
+        });
+        if (!isWhole && hooks.shouldStop && hooks.shouldStop())
+            return;
+        RepeatedPass pass{.rays = result.rays, .renderSeconds = watch.lap().seconds()};
+        pass.isEqual = firstDifference(result.film, expected) == expected.pixels.size();
+        pass.compareSeconds = watch.lap().seconds();
+        pass.film = [&] { return result.film; };
+        pass.laneOf = [](const glm::uvec2 &, std::uint32_t) { return std::nullopt; };
+        goesOn = hooks.onPass(pass);
+    }
+}
+
 Image Backend::denoise(const NoisyPicture &picture) { return reference::denoise(picture); }
 
 void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes,

@@ -8,6 +8,7 @@
 #include "host/film/ray_counts.h"
 #include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
+#include "host/film/repeated_pass.h"
 #include "host/film/work_counts.h"
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/memory_plan.h"
@@ -54,6 +55,10 @@ class Backend {
     /// it cannot render.
     [[nodiscard]] virtual BackendResult render(const PackedScene &scene, const RenderSettings &settings,
                                                Film begun, const RenderHooks &hooks = {}) = 0;
+    /// Renders again and again from no samples, and compares each film with `expected`, which has all of them and no
+    /// layers of light. Throws as render() does, and at the first failure of a device.
+    virtual void repeat(const PackedScene &scene, const RenderSettings &settings, const Film &expected,
+                        const RepeatHooks &hooks);
     /// Traces one sample of one pixel of the whole image.
     [[nodiscard]] virtual std::vector<layout::TraceEvent> trace(const PackedScene &scene,
                                                                 const RenderSettings &settings,

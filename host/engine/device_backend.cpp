@@ -56,6 +56,10 @@ class DeviceBackend : public Backend {
         return {std::move(result.film), result.rays,   result.timing, result.work,
                 result.lanes,           result.memory, result.faults, result.failure};
     }
+    void repeat(const PackedScene &scene, const RenderSettings &settings, const Film &expected,
+                const RepeatHooks &hooks) override {
+        renderer_.repeat(scene, settings, expected, hooks);
+    }
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,
                                                         const RenderSettings &settings,
                                                         const glm::uvec2 &pixel,

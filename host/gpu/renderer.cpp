@@ -10,6 +10,7 @@
 #include "host/gpu/tile_renderer.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/device.h"
+#include "host/gpu/word_comparison.h"
 #include "host/packing/light_planes.h"
 
 #include <fmt/format.h>
@@ -392,6 +393,56 @@ Result Renderer::render(const PackedScene &scene, const RenderSettings &settings
             if (hooks.shouldStop && hooks.shouldStop())
                 return result;
         }
+    }
+}
+
+void Renderer::repeat(const PackedScene &scene, const RenderSettings &settings, const Film &expected,
+                      const RepeatHooks &hooks) {
+    const Job job{scene, settings, expected.crop, 0, static_cast<std::uint32_t>(settings.samplesPerPixel),
+                  false};
+    try {
+        if (!state_->device)
+            state_->reopen();
+        const RenderConfig config = state_->configFor(scene, settings.integrator, showsWork(settings));
+        const ScenePlan scenePlan = planScene(scene, *config.kernel);
+        const JobPlan plan = planJob(job, config, state_->info);
+        state_->keepOnly(scene, *config.kernel);
+        (void)state_->requireMemory(scenePlan, plan);
+        const SceneBuffers &buffers = state_->buffersOf(job, scenePlan, *config.kernel);
+        TileRenderer tiles(*state_->device, state_->pipelines, buffers, config, job, scenePlan, plan);
+        tiles.makeKernel();
+        tiles.warmUp();
+        const std::span<const std::uint32_t> words(
+            reinterpret_cast<const std::uint32_t *>(expected.pixels.data()),
+            expected.pixels.size() * sizeof(layout::FilmPixel) / sizeof(std::uint32_t));
+        ExpectedWords expectedWords(*state_->device, words);
+        const auto film = [&] {
+            Film copy(expected.crop);
+            tiles.readFilm(copy.pixels, copy.light);
+            return copy;
+        };
+        for (bool goesOn = true; goesOn;) {
+            RepeatedPass pass;
+            Stopwatch watch;
+            tiles.restart();
+            const TileTotals totals = tiles.run({}, &pass.timeline, hooks.shouldStop);
+            if (totals.isStopped)
+                return;
+            pass.rays = totals.rays;
+            pass.renderSeconds = watch.lap().seconds();
+            pass.isEqual =
+                expectedWords.compare(tiles.film(), static_cast<std::uint32_t>(words.size())).count == 0;
+            pass.compareSeconds = watch.lap().seconds();
+            pass.film = film;
+            pass.laneOf = [&](const glm::uvec2 &pixel, std::uint32_t sample) {
+                return tiles.laneOf(pixel, sample);
+            };
+            goesOn = hooks.onPass(pass);
+        }
+    } catch (const DeviceFault &) {
+        state_->forget();
+        state_->device.reset();
+        throw;
     }
 }
 

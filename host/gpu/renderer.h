@@ -7,6 +7,7 @@
 #include "host/film/ray_counts.h"
 #include "host/film/render_hooks.h"
 #include "host/film/render_timing.h"
+#include "host/film/repeated_pass.h"
 #include "host/film/timeline.h"
 #include "host/film/work_counts.h"
 #include "host/gpu/memory_plan.h"
@@ -68,6 +69,12 @@ class Renderer {
     /// traversal with a stack, is requested from another kernel.
     [[nodiscard]] Result render(const PackedScene &scene, const RenderSettings &settings, Film begun,
                                 const RenderHooks &hooks = {});
+
+    /// Renders again and again, without retries, and compares each film with `expected` on the device. `expected` has
+    /// all samples and no layers of light. Throws as render() does, Error{LimitExceeded} also where the film does not
+    /// fit into one buffer, and DeviceFault at the first failure, after which the next call opens the device again.
+    void repeat(const PackedScene &scene, const RenderSettings &settings, const Film &expected,
+                const RepeatHooks &hooks);
 
     /// Traces one sample of one pixel of the whole image, step by step; at most 2^17 steps are recorded.
     [[nodiscard]] std::vector<layout::TraceEvent> trace(const PackedScene &scene,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <ctime>
 #include <tuple>
 #include <utility>
@@ -368,6 +369,25 @@ void TileRenderer::uploadFilm() {
         film_.upload(std::as_bytes(job_.film));
         light_.upload(std::as_bytes(job_.light));
     }
+}
+
+void TileRenderer::restart() {
+    assert(job_.film.empty());
+    uploadFilm();
+    if (plan_.regeneratesPaths)
+        stacks_.clear();
+}
+
+std::uint32_t TileRenderer::laneOf(const glm::uvec2 &pixel, std::uint32_t sampleIndex) const {
+    // As shaders/drive/places.glsl places slots: tiles begin and end with blocks of 8x8 pixels, whose slots fill
+    // subgroups.
+    const std::uint32_t x = (pixel.x - dispatch_.cropX) % 8;
+    const std::uint32_t y = (pixel.y - dispatch_.cropY) % 8;
+    const std::uint32_t inBlock = (x & 3) | (y & 1) << 2 | (x & 4) << 1 | (y & 6) << 3;
+    const std::uint32_t slot = inBlock * plan_.samplesInFlight + sampleIndex % plan_.samplesInFlight;
+    const auto perLane = static_cast<std::uint32_t>(config_.kernel->raysAtOnce);
+    const std::uint32_t lane = plan_.regeneratesPaths ? slot : slot / (8 * perLane) * 8 + slot % 8;
+    return lane % device_.info().subgroupSize;
 }
 
 std::vector<layout::TraceEvent> TileRenderer::readTrace() const {

@@ -61,6 +61,15 @@ class TileRenderer {
                                  const std::function<bool()> &shouldStop = {},
                                  const std::function<void(const RayCounts &)> &onPause = {});
 
+    /// Drops all samples of a job that began without any: the next run renders them anew.
+    void restart();
+
+    /// The film on the device: of a job that began without samples, the pixels of its crop, row by row.
+    [[nodiscard]] const Buffer &film() const { return film_; }
+
+    /// The lane that computes a sample of a pixel of the whole image, where subgroups are side by side in workgroups.
+    [[nodiscard]] std::uint32_t laneOf(const glm::uvec2 &pixel, std::uint32_t sampleIndex) const;
+
     /// Pixels that were finished before stay as they are.
     void readFilm(std::span<layout::FilmPixel> pixels, std::span<float> light) const;
 
