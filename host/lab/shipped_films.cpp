@@ -2,7 +2,6 @@
 
 #include "host/base/hash.h"
 #include "host/base/json_document.h"
-#include "host/base/json_reader.h"
 #include "host/import/assets.h"
 #include "host/scene/names.h"
 
@@ -16,19 +15,8 @@ namespace hyalite::core {
 
 namespace {
 
-constexpr Interval versions{1, 1'000'000};
 constexpr Interval slotCounts{1, 2};
 constexpr std::size_t maxFilmCount = 1000;
-
-/// 16 hexadecimal digits, as hashText() writes them.
-std::uint64_t readHash(const JsonNode &node) {
-    const std::string text = node.text();
-    std::uint64_t hash = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
-    if (error != std::errc() || text != hashText(hash))
-        node.refuse("16 hexadecimal digits");
-    return hash;
-}
 
 ShippedFilm readFilm(const JsonNode &node) {
     constexpr std::array<std::string_view, 4> keys{"scene", "integrator", "maxSlots", "hash"};
@@ -47,6 +35,20 @@ std::vector<std::string> ShippedFilms::sceneNames() const {
     return names;
 }
 
+std::uint64_t readHash(const JsonNode &node) {
+    const std::string text = node.text();
+    std::uint64_t hash = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+    if (error != std::errc() || text != hashText(hash))
+        node.refuse("16 hexadecimal digits");
+    return hash;
+}
+
+int readVersion(const JsonObject &object) {
+    constexpr Interval versions{1, 1'000'000};
+    return static_cast<int>(object.at("version").wholeNumber(versions));
+}
+
 ShippedFilms readShippedFilms() {
     ShippedFilms shipped;
     const std::filesystem::path file = shippedFile("verify/films.json");
@@ -55,7 +57,7 @@ ShippedFilms readShippedFilms() {
     const nlohmann::json document = readJsonFile(file);
     constexpr std::array<std::string_view, 2> keys{"version", "films"};
     const JsonObject object({&document, &fileName}, keys);
-    shipped.version = static_cast<int>(object.at("version").wholeNumber(versions));
+    shipped.version = readVersion(object);
     for (const JsonNode &film : object.elements("films", maxFilmCount))
         shipped.films.push_back(readFilm(film));
     if (shipped.films.empty())

@@ -2,6 +2,7 @@
 // machine.
 #pragma once
 
+#include "host/base/json_reader.h"
 #include "host/film/film.h"
 #include "host/scene/integrators.h"
 
@@ -31,6 +32,12 @@ struct ShippedFilms {
     /// The names of the scenes, each once, in their order.
     [[nodiscard]] std::vector<std::string> sceneNames() const;
 };
+
+/// A hash as 16 hexadecimal digits, as hashText() writes it. Throws Error{BadInput}.
+[[nodiscard]] std::uint64_t readHash(const JsonNode &node);
+
+/// The version of a shipped file. Throws Error{BadInput}.
+[[nodiscard]] int readVersion(const JsonObject &object);
 
 /// Reads verify/films.json of the first asset folder that has one. Throws Error{BadInput}.
 [[nodiscard]] ShippedFilms readShippedFilms();

@@ -66,6 +66,9 @@ std::string valueText(const TraceEvent &event, std::uint32_t firstTriangleId, co
     case layout::traceRayOrigin:
     case layout::traceSurfacePosition:
         return pointText(event.value, origin);
+    case layout::traceScatter:
+        return fmt::format("{}, pdf {}", vectorText(event.value),
+                           floatText(std::bit_cast<float>(event.integer)));
     default:
         return vectorText(event.value);
     }
