@@ -2,6 +2,7 @@
 // on unless they are to fail. See "Loader and layer interface" of the Vulkan loader.
 #include "tests/faults/fakes.h"
 #include "tests/faults/fault_layer.h"
+#include "tests/faults/flips.h"
 #include "tests/faults/plan.h"
 
 #include <vulkan/vk_layer.h>
@@ -30,8 +31,6 @@ namespace {
     X(vkAllocateDescriptorSets)                                                                              \
     X(vkAllocateMemory)                                                                                      \
     X(vkBeginCommandBuffer)                                                                                  \
-    X(vkBindBufferMemory)                                                                                    \
-    X(vkCreateBuffer)                                                                                        \
     X(vkCreateBufferView)                                                                                    \
     X(vkCreateCommandPool)                                                                                   \
     X(vkCreateComputePipelines)                                                                              \
@@ -43,14 +42,10 @@ namespace {
     X(vkDeviceWaitIdle)                                                                                      \
     X(vkEndCommandBuffer)                                                                                    \
     X(vkGetQueryPoolResults)                                                                                 \
-    X(vkMapMemory)                                                                                           \
-    X(vkQueueSubmit)                                                                                         \
     X(vkResetFences)                                                                                         \
-    X(vkSetDebugUtilsObjectNameEXT)                                                                          \
     X(vkWaitForFences)
 // What undoes them.
 #define HYALITE_DESTROY_CALLS(X)                                                                             \
-    X(vkDestroyBuffer, "vkCreateBuffer")                                                                     \
     X(vkDestroyBufferView, "vkCreateBufferView")                                                             \
     X(vkDestroyCommandPool, "vkCreateCommandPool")                                                           \
     X(vkDestroyDescriptorPool, "vkCreateDescriptorPool")                                                     \
@@ -373,6 +368,59 @@ VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShade
     return Passed<"vkCreateShaderModule", PFN_vkCreateShaderModule>::call(device, &passed, allocator, module);
 }
 
+// ---- Bits that flip
+
+VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo *info,
+                                            const VkAllocationCallbacks *allocator, VkBuffer *buffer) {
+    const VkResult result =
+        Passed<"vkCreateBuffer", PFN_vkCreateBuffer>::call(device, info, allocator, buffer);
+    if (result == VK_SUCCESS && flips().isWanted())
+        flips().noteBuffer(*buffer, info->size);
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyBuffer(VkDevice device, VkBuffer buffer,
+                                         const VkAllocationCallbacks *allocator) {
+    flips().noteGone(buffer);
+    Destroyer<"vkDestroyBuffer", "vkCreateBuffer", PFN_vkDestroyBuffer>::call(device, buffer, allocator);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL bindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory,
+                                                VkDeviceSize offset) {
+    if (flips().isWanted())
+        flips().noteBound(buffer, memory);
+    return Passed<"vkBindBufferMemory", PFN_vkBindBufferMemory>::call(device, buffer, memory, offset);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
+                                         VkDeviceSize size, VkMemoryMapFlags flags, void **address) {
+    const VkResult result =
+        Passed<"vkMapMemory", PFN_vkMapMemory>::call(device, memory, offset, size, flags, address);
+    if (result == VK_SUCCESS && flips().isWanted())
+        flips().noteMapped(memory, *address);
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL setObjectName(VkDevice device, const VkDebugUtilsObjectNameInfoEXT *info) {
+    if (flips().isWanted())
+        flips().noteName(info->objectType, info->objectHandle, info->pObjectName);
+    return Passed<"vkSetDebugUtilsObjectNameEXT", PFN_vkSetDebugUtilsObjectNameEXT>::call(device, info);
+}
+
+VKAPI_ATTR void VKAPI_CALL bindPipeline(VkCommandBuffer commands, VkPipelineBindPoint point,
+                                        VkPipeline pipeline) {
+    if (flips().isWanted())
+        flips().notePipeline(pipeline);
+    nextFunction<PFN_vkCmdBindPipeline>(commands, "vkCmdBindPipeline")(commands, point, pipeline);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL queueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo *infos,
+                                           VkFence fence) {
+    if (flips().isWanted())
+        flips().beforeSubmission();
+    return Passed<"vkQueueSubmit", PFN_vkQueueSubmit>::call(queue, count, infos, fence);
+}
+
 template <class Function> PFN_vkVoidFunction erased(Function function) {
     return reinterpret_cast<PFN_vkVoidFunction>(function);
 }
@@ -385,7 +433,14 @@ const Functions &deviceFunctions() {
 #define HYALITE_ENTRY(name, creator) {#name, erased(Destroyer<#name, creator, PFN_##name>::call)},
             HYALITE_DESTROY_CALLS(HYALITE_ENTRY)
 #undef HYALITE_ENTRY
-                {"vkCreateShaderModule", erased(createShaderModule)},
+                {"vkBindBufferMemory", erased(bindBufferMemory)},
+        {"vkCmdBindPipeline", erased(bindPipeline)},
+        {"vkCreateBuffer", erased(createBuffer)},
+        {"vkCreateShaderModule", erased(createShaderModule)},
+        {"vkDestroyBuffer", erased(destroyBuffer)},
+        {"vkMapMemory", erased(mapMemory)},
+        {"vkQueueSubmit", erased(queueSubmit)},
+        {"vkSetDebugUtilsObjectNameEXT", erased(setObjectName)},
         {"vkDestroyDevice", erased(destroyDevice)},
         {"vkGetDeviceProcAddr", erased(getDeviceProcAddr)},
     };

@@ -54,11 +54,6 @@ Fault readFault(std::string_view text) {
     return {std::string(parts[0]), call, parts[1].ends_with('+'), resultNamed(parts[2])};
 }
 
-const char *fromEnvironment(const char *name) {
-    const char *value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
-
 /// Writes the tally at the end of the process.
 struct Process {
     Plan plan;
@@ -78,6 +73,11 @@ struct Process {
 };
 
 } // namespace
+
+const char *fromEnvironment(const char *name) {
+    const char *value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
 
 void Plan::setFaults(std::string_view text) {
     const std::lock_guard lock(mutex_);

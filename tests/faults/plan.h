@@ -44,6 +44,9 @@ class Plan {
     long callCount_ = 0;
 };
 
+/// The value of a variable, or "".
+[[nodiscard]] const char *fromEnvironment(const char *name);
+
 /// From the environment, at first.
 [[nodiscard]] Plan &plan();
 
