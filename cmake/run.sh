@@ -32,7 +32,7 @@ needed=(g++ make cmake pkg-config libvulkan-dev spirv-headers mesa-vulkan-driver
         zlib1g-dev libpng-dev libwebp-dev libcpp-httplib-dev libmeshoptimizer-dev libdraco-dev)
 needed_for_python=(python3-dev pybind11-dev python3-numpy)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs "${needed_for_python[@]}"
-                  python3-pytest python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick
+                  python3-pytest python3-jsonschema python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick
                   python3-openimageio)
 needed_for_archive=(dpkg-dev binutils xz-utils)
 needed_for_archive_with_lavapipe=(patchelf)

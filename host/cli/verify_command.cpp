@@ -5,6 +5,8 @@
 #include "host/cli/device_options.h"
 #include "host/cli/options.h"
 #include "host/cli/terminal_observer.h"
+#include "host/cli/verify_soak.h"
+#include "host/cli/verify_subjects.h"
 #include "host/engine/tuning.h"
 #include "host/gpu/vk/device_list.h"
 #include "host/lab/verify_report.h"
@@ -29,47 +31,8 @@ struct VerifyOptions {
     std::string junit;
     std::string report;
     bool isQuiet = false;
+    SoakOptions soak; ///< to verify again and again, if it is wanted
 };
-
-/// A renderer to verify.
-struct Subject {
-    std::string name;                      ///< for openBackend()
-    std::optional<gpu::DeviceInfo> device; ///< empty: the CPU twin
-};
-
-/// "all" leaves out what cannot be used, and says so.
-std::vector<Subject> allSubjects() {
-    std::vector<Subject> subjects{{"cpu", std::nullopt}};
-    const std::vector<gpu::DeviceInfo> devices = gpu::listDevices();
-    for (const gpu::DeviceInfo &device : devices)
-        if (device.isUsable())
-            subjects.push_back({std::to_string(device.index), device});
-        else
-            printMessage("note: left out {}: {}\n", device.name, device.rejection);
-    if (subjects.size() == 1) // throws why
-        static_cast<void>(gpu::chooseDevice(devices, "auto"));
-    return subjects;
-}
-
-std::vector<Subject> subjectsOf(const std::vector<std::string> &names) {
-    std::vector<Subject> subjects;
-    const auto add = [&](const Subject &subject) {
-        if (std::ranges::find(subjects, subject.name, &Subject::name) == subjects.end())
-            subjects.push_back(subject);
-    };
-    for (const std::string &name : names)
-        if (name == "all") {
-            std::ranges::for_each(allSubjects(), add);
-        } else if (name == "cpu") {
-            add({"cpu", std::nullopt});
-        } else if (isReference(name)) {
-            refuseValue("--device", name, "all, cpu or a Vulkan device: double precision has other bits");
-        } else {
-            const gpu::DeviceInfo device = gpu::chooseDevice(gpu::listDevices(), name);
-            add({std::to_string(device.index), device});
-        }
-    return subjects;
-}
 
 /// Drops the films of all scenes but these. No names: drops none.
 void keepScenes(ShippedFilms &shipped, const std::vector<std::string> &names) {
@@ -156,7 +119,8 @@ DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shi
 }
 
 ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine) {
-    requireDistinctFiles({{"--junit", options.junit}, {"--report", options.report}}, {});
+    requireDistinctFiles({{"--junit", options.junit}, {"--report", options.report}},
+                         {{"--expect", options.soak.expect}});
     std::optional<AtomicFile> junit;
     std::optional<AtomicFile> report;
     if (!options.junit.empty())
@@ -166,7 +130,15 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
     ShippedFilms shipped = readShippedFilms();
     keepScenes(shipped, options.scenes);
     requireKernels(options.kernels);
+    requireSoak(options.soak);
     const std::vector<Subject> subjects = subjectsOf(options.devices);
+    if (options.soak.isWanted()) {
+        if (!options.scenes.empty() || !options.kernels.empty())
+            throw Error(ErrorKind::Usage,
+                        "--scenes and --kernels choose films of one run; with --minutes or --passes "
+                        "--loads chooses what is run again and again");
+        return runSoak(subjects, options.soak, junit, report, options.isQuiet, commandLine);
+    }
     if (!options.kernels.empty() &&
         std::ranges::none_of(subjects, [](const Subject &subject) { return subject.device.has_value(); }))
         throw Error(ErrorKind::Usage, "--kernels: found --device cpu, which has none to choose from");
@@ -225,6 +197,7 @@ void addVerifyCommand(CLI::App &app, CommandContext &context) {
     addOutput(*command, "--junit", options->junit, "FILE.xml", "write the verdicts as JUnit XML, for CI");
     addOutput(*command, "--report", options->report, "FILE.json", "write the verdicts and all hashes");
     command->add_flag("--quiet", options->isQuiet, "print what differs, and the result only");
+    addSoakOptions(*command, options->soak);
     command->callback([options, &context] { context.exitCode = runVerify(*options, context.commandLine); });
 }
 

@@ -48,8 +48,8 @@ HYALITE_INLINE uint permuted(uint x) {
     return (word >> 22u) ^ word;
 }
 
-/// A word whose every bit depends on all that computed it: integer products, shifts, and sums and products of floats from
-/// 1 to 6, whose rounding IEEE 754 fixes.
+/// A word whose every bit depends on all that computed it: integer products, shifts, and sums and products of floats
+/// from 1 to 6, whose rounding IEEE 754 fixes.
 HYALITE_INLINE uint wordOf(uint index, uint rounds) {
     uint x = permuted(index);
     for (uint i = 0u; i < rounds; ++i) {
