@@ -71,6 +71,7 @@ class SoakProgress {
 std::vector<SoakVerdict> soakAll(const std::vector<Subject> &subjects, const Loads &loads,
                                  const SoakRequest &request, Observer &observer) {
     std::vector<std::unique_ptr<Backend>> backends; // whose drivers want settings before any thread begins
+    backends.reserve(subjects.size());
     for (const Subject &subject : subjects)
         backends.push_back(openBackend(subject.name, observer));
     SoakProgress progress(observer, subjects.size());
@@ -81,6 +82,7 @@ std::vector<SoakVerdict> soakAll(const std::vector<Subject> &subjects, const Loa
                         progress.eventsOf(i, backends[i]->name()));
         }));
     std::vector<SoakVerdict> verdicts;
+    verdicts.reserve(running.size());
     for (std::future<SoakVerdict> &each : running)
         verdicts.push_back(each.get());
     return verdicts;

@@ -74,6 +74,8 @@ std::string describeFilm(const SoakFault &fault) {
         text += fmt::format("; first step: sample {}, bounce {}: {}: {} on the device, {} on the CPU",
                             divergence->sampleIndex, divergence->rayDepth - 1, divergence->quantity,
                             divergence->valueA, divergence->valueB);
+    else if (fault.recurrence == Recurrence::Permanent)
+        text += "; its path is right where it is traced by itself";
     return text;
 }
 
