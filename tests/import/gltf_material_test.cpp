@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace hyalite::core {
 namespace {
@@ -151,19 +152,40 @@ TEST_F(GltfMaterial, IsThinUnlessItHasAVolumeWhichAbsorbsByBeersLaw) {
         glm::vec3(0.0f));
 }
 
+const char *const absorbingGlass = R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+    "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0]}}})";
+
 TEST_F(GltfMaterial, IsThinBeyondAsManyVolumesAsPathsTellApart) {
-    const char *glass = R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
-        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0]}}})";
-    GltfMaker maker = makerOf(glass);
-    while (maker.json["materials"].size() < limits::mediumCount + 2)
-        maker.json["materials"].push_back(maker.json["materials"][0]);
+    GltfMaker maker = makerOf(absorbingGlass);
+    nlohmann::json &materials = maker.json["materials"];
+    while (materials.size() < limits::mediumCount + 2) {
+        materials.push_back(materials[0]);
+        materials.back()["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2 + materials.size();
+    }
     const LoadedScene loaded = load(maker);
     for (std::size_t i = 0; i < limits::mediumCount + 2; ++i)
         EXPECT_EQ(loaded.scene.materials.at(i + 1).isThin, i >= limits::mediumCount) << i;
     ASSERT_EQ(loaded.meshReports.at(0).warnings.size(), 1u);
-    EXPECT_NE(loaded.meshReports[0].warnings[0].find("10 materials are glass with a volume"),
+    EXPECT_NE(loaded.meshReports[0].warnings[0].find("10 materials are glass with volumes that differ"),
               std::string::npos)
         << loaded.meshReports[0].warnings[0];
+}
+
+TEST_F(GltfMaterial, OfTooManyVolumesIsThatOfAnEqualOne) {
+    GltfMaker maker = makerOf(absorbingGlass);
+    nlohmann::json &materials = maker.json["materials"];
+    while (materials.size() < limits::mediumCount + 2) {
+        materials.push_back(materials[0]);
+        materials.back()["name"] = std::to_string(materials.size());
+        materials.back()["extensions"]["KHR_materials_volume"]["thicknessFactor"] = materials.size();
+    }
+    maker.json["meshes"][0]["primitives"][0]["material"] = materials.size() - 1;
+    const LoadedScene loaded = load(maker);
+    EXPECT_TRUE(loaded.meshReports.at(0).warnings.empty());
+    ASSERT_EQ(loaded.scene.meshes.at(0).triangleMaterials.size(), 1u);
+    const Material &shown = loaded.scene.materials.at(loaded.scene.meshes[0].triangleMaterials[0]);
+    EXPECT_FALSE(shown.isThin);
+    EXPECT_GT(shown.absorption.y, 0.0f);
 }
 
 TEST_F(GltfMaterial, ReadsSpecularGlossiness) {

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace hyalite::core::gltf {
@@ -198,8 +199,8 @@ void addWarnings(const MeshFindings &findings, const std::string &fileName, Mesh
 }
 
 void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnReading &onReading,
-                MeshFile &file) {
-    MeshReader reader(buffers, file.materials);
+                std::span<const std::uint32_t> shownAs, MeshFile &file) {
+    MeshReader reader(buffers, file.materials, shownAs);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         if (onReading)
             onReading(static_cast<double>(i) / static_cast<double>(uses.size()));
@@ -344,7 +345,8 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
 
     TextureReader textureReader(buffers, near, textures);
-    contents.file.materials = readMaterials(document, textureReader);
+    Materials materials = readMaterials(document, textureReader);
+    contents.file.materials = std::move(materials.list);
     StatedBounds bounds(document);
     MeshUses uses(buffers, poses, toWorld, bounds);
     NamedNodes named = namedNodesOf(document, tree, nodes);
@@ -354,7 +356,7 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
         if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
             contents.lights.push_back(*light);
     }
-    readMeshes(buffers, uses.uses(), options.onReading, contents.file);
+    readMeshes(buffers, uses.uses(), options.onReading, materials.shownAs, contents.file);
     contents.outline = outlineOf(document, tree, nodes);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
     if (document.count("animations") > 0)

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -272,29 +275,52 @@ Material defaultMaterial() {
     return material;
 }
 
-/// Makes glass thin beyond as many volumes as `path` tells apart.
-void limitVolumes(const Document &document, std::vector<Material> &materials) {
-    std::size_t count = 0;
-    for (Material &material : materials)
-        if (isGlass(material) && ++count > limits::mediumCount) {
-            material.isThin = true;
-            material.absorption = glm::vec3(0.0f);
+/// What the file says of a volume of glass, without its name and its thickness, which is that of the mesh.
+nlohmann::json descriptionOf(const JsonNode &node) {
+    nlohmann::json description = *node.value;
+    description.erase("name");
+    nlohmann::json &volume = description["extensions"]["KHR_materials_volume"];
+    volume.erase("thicknessFactor");
+    volume.erase("thicknessTexture");
+    return description;
+}
+
+/// Lets equal volumes be one where there are more than `path` tells apart, and makes those thin that are beyond.
+void limitVolumes(const Document &document, Materials &materials) {
+    if (std::cmp_less_equal(std::ranges::count_if(materials.list, isGlass), limits::mediumCount))
+        return;
+    std::map<nlohmann::json, std::uint32_t> volumes;
+    std::uint32_t index = 0;
+    for (const JsonNode &node : elementsOf(document.top(), "materials")) {
+        Material &material = materials.list[index];
+        if (isGlass(material)) {
+            const auto [alike, isNew] = volumes.try_emplace(descriptionOf(node), index);
+            materials.shownAs[index] = alike->second;
+            if (!isNew || volumes.size() > limits::mediumCount) {
+                material.isThin = true;
+                material.absorption = glm::vec3(0.0f);
+            }
         }
-    if (count > limits::mediumCount)
+        ++index;
+    }
+    if (volumes.size() > limits::mediumCount)
         document.losses().add("volumes", [&] {
-            return fmt::format("{}: {} materials are glass with a volume; those after the first {} count as "
-                               "thin glass",
-                               document.fileName(), count, limits::mediumCount);
+            return fmt::format(
+                "{}: {} materials are glass with volumes that differ; those after the first {} "
+                "count as thin glass",
+                document.fileName(), volumes.size(), limits::mediumCount);
         });
 }
 
 } // namespace
 
-std::vector<Material> readMaterials(const Document &document, TextureReader &textures) {
-    std::vector<Material> materials;
+Materials readMaterials(const Document &document, TextureReader &textures) {
+    Materials materials;
     for (const JsonNode &node : document.top().elements("materials", limits::materialCount - 2))
-        materials.push_back(MaterialReader(document, node, textures).read());
-    materials.push_back(defaultMaterial());
+        materials.list.push_back(MaterialReader(document, node, textures).read());
+    materials.list.push_back(defaultMaterial());
+    materials.shownAs.resize(materials.list.size());
+    std::iota(materials.shownAs.begin(), materials.shownAs.end(), 0u);
     limitVolumes(document, materials);
     return materials;
 }

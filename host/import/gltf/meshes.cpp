@@ -112,7 +112,9 @@ MaterialNeeds needsOf(const Material &material) {
     return needs;
 }
 
-MeshReader::MeshReader(Buffers &buffers, const std::vector<Material> &materials) : buffers_(buffers) {
+MeshReader::MeshReader(Buffers &buffers, const std::vector<Material> &materials,
+                       std::span<const std::uint32_t> shownAs)
+    : buffers_(buffers), shownAs_(shownAs) {
     std::ranges::transform(materials, std::back_inserter(needs_), needsOf);
 }
 
@@ -140,7 +142,7 @@ void MeshReader::append(Primitive &&primitive, TriangleMesh &mesh) {
         return;
     for (glm::vec3 &normal : primitive.vertices.normals)
         normal = normalised(normal);
-    const std::size_t material = primitive.material.value_or(needs_.size() - 1);
+    const std::uint32_t material = shownAs_[primitive.material.value_or(needs_.size() - 1)];
     const MaterialNeeds &needs = needs_[material];
     // Triangles themselves come last: the others fill up to what is there.
     addUvs(primitive, needs, mesh);
@@ -151,7 +153,7 @@ void MeshReader::append(Primitive &&primitive, TriangleMesh &mesh) {
     addNormals(primitive, mesh);
     mesh.positions.insert(mesh.positions.end(), primitive.vertices.positions.begin(),
                           primitive.vertices.positions.end());
-    mesh.triangleMaterials.resize(mesh.triangles.size(), static_cast<std::uint32_t>(material + 1));
+    mesh.triangleMaterials.resize(mesh.triangles.size(), material + 1);
     const glm::uvec3 nothing(TriangleMesh::noUv);
     for (std::vector<glm::uvec3> *corners :
          {&mesh.triangleUvs, &mesh.secondUvs.corners, &mesh.colours.corners, &mesh.tangents.corners})

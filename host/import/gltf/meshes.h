@@ -6,6 +6,8 @@
 #include "host/scene/scene.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,10 @@ struct MeshFindings {
 
 class MeshReader {
   public:
-    /// `materials` are those of the file in its order, and one more for primitives without any. All outlive the object.
-    MeshReader(Buffers &buffers, const std::vector<Material> &materials);
+    /// `materials` are those of the file in its order, and one more for primitives without any; `shownAs`: see Materials.
+    /// All outlive the object.
+    MeshReader(Buffers &buffers, const std::vector<Material> &materials,
+               std::span<const std::uint32_t> shownAs);
 
     /// A mesh of /meshes. Indices of materials count from 1. Where the deformation has a skin, the mesh is in world
     /// space. It may have no triangle.
@@ -47,6 +51,7 @@ class MeshReader {
     static void addTangents(const Primitive &primitive, const MaterialNeeds &needs, TriangleMesh &mesh);
 
     Buffers &buffers_;
+    std::span<const std::uint32_t> shownAs_;
     std::vector<MaterialNeeds> needs_;
     MeshFindings findings_;
 };
