@@ -70,6 +70,26 @@ TEST_F(GltfView, ChoicesAreRefusedForOtherFormats) {
     EXPECT_THROW(static_cast<void>(loadScene(mesh, {.timeSeconds = 1.0})), Error);
 }
 
+TEST_F(GltfView, HiddenNodesShowNeitherTheirMeshesNorTheirLightsNorThoseBelow) {
+    const nlohmann::json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+    const nlohmann::json lit = {{"KHR_lights_punctual", {{"light", 0}}}};
+    GltfMaker maker = oneTriangle();
+    maker.json["extensionsRequired"] = {"KHR_node_visibility"};
+    maker.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    maker.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    maker.json["nodes"] = {
+        {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", nlohmann::json::object()}}}},
+        {{"mesh", 0}, {"extensions", hidden}, {"children", {2, 3}}, {"translation", {0, 0, 7}}},
+        {{"mesh", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}, {"camera", 0}},
+        {{"extensions", lit}}};
+    maker.json["scenes"][0]["nodes"] = {0, 1};
+    const LoadedScene loaded = load(maker);
+    EXPECT_EQ(loaded.scene.meshes.size(), 1u);
+    EXPECT_TRUE(loaded.scene.instances.empty());
+    EXPECT_TRUE(loaded.scene.lights.empty());
+    EXPECT_EQ(loaded.scene.camera.position, glm::dvec3(0, 0, 7));
+}
+
 TEST_F(GltfView, LightsHaveTheirUnits) {
     GltfMaker maker = oneTriangle();
     maker.json["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -218,6 +218,19 @@ void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnRead
     addWarnings(reader.findings(), buffers.document().fileName(), file.report);
 }
 
+/// Those of the nodes whose meshes and lights are shown: KHR_node_visibility. A node hides all below it, but no camera.
+std::vector<std::size_t> shownNodes(const Document &document, const NodeTree &tree,
+                                    std::vector<std::size_t> nodes) {
+    std::vector<bool> hides;
+    for (const JsonNode &node : elementsOf(document.top(), "nodes")) {
+        const auto visibility = extensionOf(JsonObject(node), "KHR_node_visibility");
+        hides.push_back(visibility && !visibility->boolean("visible", true));
+    }
+    const std::vector<bool> hidden = tree.below(std::move(hides));
+    std::erase_if(nodes, [&](std::size_t node) { return hidden[node]; });
+    return nodes;
+}
+
 /// Whether one of the nodes that move has a mesh or a light. Joints of a skin may be any node: a mesh with a skin
 /// moves.
 bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t> &nodes,
@@ -343,6 +356,7 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     const std::vector<Pose> &poses = moved ? *moved : rest;
     const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
     const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
+    const std::vector<std::size_t> shown = shownNodes(document, tree, nodes);
 
     TextureReader textureReader(buffers, near, textures);
     Materials materials = readMaterials(document, textureReader);
@@ -351,7 +365,7 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     MeshUses uses(buffers, poses, toWorld, bounds);
     NamedNodes named = namedNodesOf(document, tree, nodes);
     contents.file.nodes = std::move(named.nodes);
-    for (const std::size_t node : nodes) {
+    for (const std::size_t node : shown) {
         uses.add(node, named.positions[node]);
         if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
             contents.lights.push_back(*light);
@@ -360,12 +374,12 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     contents.outline = outlineOf(document, tree, nodes);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);
     if (document.count("animations") > 0)
-        contents.restOrigin = restOriginOf(buffers, tree, rest, nodes, bounds);
+        contents.restOrigin = restOriginOf(buffers, tree, rest, shown, bounds);
     if (options.sequence) {
         const std::vector<bool> animated = animatedNodes(document);
         const std::vector<bool> moving = tree.below(animated);
         contents.movesByTime = std::ranges::find(animated, true) != animated.end() &&
-                               moveMoreThanCameras(document, nodes, moving);
+                               moveMoreThanCameras(document, shown, moving);
         if (contents.camera && moving[contents.camera->node] && !contents.movesByTime)
             contents.cameraPath = readCameraPath(buffers, tree, rest, *contents.camera, *options.sequence);
     }
