@@ -47,9 +47,10 @@ add_custom_target(layout_macros_header DEPENDS ${PROJECT_BINARY_DIR}/kernels/lay
 
 # hyalite_kernel(TARGET VARIABLE SOURCE [UNOPTIMISED] [INCLUDES FOLDER] [DEFINITIONS NAME=VALUE...])
 #
-# Embeds SOURCE, a path, into TARGET as VARIABLE, a KernelWords of SPIR-V 1.3, in a header VARIABLE.h. An edited shader is
-# always built anew. With UNOPTIMISED functions stay as they are written, for tests that look at them. Includes are looked for in
-# FOLDER first. The target property HYALITE_KERNELS lists all variables, HYALITE_DEFINITIONS_<VARIABLE> the definitions.
+# Embeds SOURCE, a path, into TARGET as VARIABLE, a KernelWords of SPIR-V 1.3, in a header VARIABLE.h. An edited shader
+# is always built anew. With UNOPTIMISED functions stay as they are written, for tests that look at them. Includes are
+# looked for in FOLDER first. The target property HYALITE_KERNELS lists all variables, HYALITE_DEFINITIONS_<VARIABLE>
+# the definitions.
 function(hyalite_kernel target variable source)
     cmake_parse_arguments(PARSE_ARGV 3 kernel UNOPTIMISED INCLUDES DEFINITIONS)
     set(folder ${PROJECT_BINARY_DIR}/kernels)

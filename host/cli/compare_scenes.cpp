@@ -36,9 +36,8 @@ std::string pageBeside(const std::filesystem::path &index, std::size_t number, c
     return (index.parent_path() / name).string();
 }
 
-/// One of several: what is wrong with its scene does not end the others.
-std::pair<ComparedScene, ExitCode> compareOneOfSeveral(const CompareOptions &options,
-                                                       const std::string &commandLine) {
+/// What is wrong with a scene is printed, and ends neither other comparisons nor their reports.
+std::pair<ComparedScene, ExitCode> compareOne(const CompareOptions &options, const std::string &commandLine) {
     try {
         ComparedScene compared = compareScene(options, commandLine);
         compared.row.page = std::filesystem::path(options.html).filename().string();
@@ -76,7 +75,7 @@ ExitCode compareSeveral(const CompareOptions &options, const std::string &comman
             one.html = pageBeside(options.html, rows.size() + 1, scene);
         if (options.isQuiet)
             printResult("scene        {}\n", scene); // which else nothing names
-        auto [compared, ofScene] = compareOneOfSeveral(one, commandLine);
+        auto [compared, ofScene] = compareOne(one, commandLine);
         if (code <= ExitCode::AnswerIsNo)
             code = std::max(code, ofScene);
         suites.push_back(std::move(compared.suite));
@@ -97,10 +96,10 @@ ExitCode runCompare(const CompareOptions &options, const std::string &commandLin
     if (!options.moreScenes.empty())
         return compareSeveral(options, commandLine);
     RequestedFile junit(options.junit);
-    const ComparedScene compared = compareScene(options, commandLine);
+    const auto [compared, code] = compareOne(options, commandLine);
     if (junit)
         junit.store(comparisonsToJunit(std::span(&compared.suite, 1)));
-    return compared.row.isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;
+    return code;
 }
 
 } // namespace hyalite::core

@@ -55,6 +55,15 @@ TEST_F(CompareScenes, GoOnAfterOneThatCannotBeRead) {
     EXPECT_EQ(entries().count("all-2-broken.html"), 0u);
 }
 
+TEST_F(CompareScenes, OneThatCannotBeReadIsACaseThatFails) {
+    store("broken.json", "{\"spheres\": 3}");
+    const Outcome outcome = run("compare broken.json --junit one.xml");
+    EXPECT_EQ(outcome.exitCode, 3) << outcome;
+    EXPECT_TRUE(contains(outcome.errors, "broken.json: /spheres")) << outcome;
+    EXPECT_EQ(countOf(load("one.xml"), "<testcase "), 1);
+    EXPECT_EQ(countOf(load("one.xml"), "<failure "), 1);
+}
+
 TEST_F(CompareScenes, HaveNoFilesOfOneScene) {
     const std::string line = "compare spheres cat" + ofSeveral;
     expectFailure(line + "--diff a.png", 2, {"--diff", "2 scenes"});

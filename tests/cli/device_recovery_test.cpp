@@ -14,14 +14,11 @@ constexpr int dispatchesOfTheStart = 2;
 
 class DeviceRecovery : public FaultyDevice {
   protected:
-    [[nodiscard]] std::string path(const std::string &name) const { return (folder / name).string(); }
-
     [[nodiscard]] Outcome render(const std::string &faults, const std::string &options = {}) {
         return runHere("render spheres --quiet --report " + path("r.json") + " -o " + path("a.pfm") +
                            fiveTiles + options,
                        faults);
     }
-    [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(load("r.json")); }
 };
 
 TEST_F(DeviceRecovery, AFaultInAnyDispatchChangesNoBit) {

@@ -14,7 +14,6 @@ using Json = nlohmann::json;
 
 class Doctor : public FaultyDevice {
   protected:
-    [[nodiscard]] Json report() const { return Json::parse(load("r.json")); }
     [[nodiscard]] std::set<std::string> problems() const {
         std::set<std::string> codes;
         const Json document = report();

@@ -3,6 +3,8 @@
 
 #include "tests/cli/command_line.h"
 
+#include <nlohmann/json.hpp>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +35,11 @@ class FaultyDevice : public CommandLine {
     /// The command in this process: many of them are fast. Names of files are as they are given, from the root.
     [[nodiscard]] Outcome runHere(const std::string &line, const std::string &faults,
                                   const std::string &fakes = {});
+
+    /// The report that a command wrote into the folder, as r.json.
+    [[nodiscard]] nlohmann::json report() const { return nlohmann::json::parse(load("r.json")); }
+    /// Of a file in the folder, for runHere().
+    [[nodiscard]] std::string path(const std::string &name) const { return (folder / name).string(); }
 
     Tally lastTally;
 };

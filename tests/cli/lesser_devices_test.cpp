@@ -12,8 +12,6 @@ class LesserDevices : public FaultyDevice {
         store("sheet.json", wavySheetScene());
     }
 
-    [[nodiscard]] std::string path(const std::string &name) const { return (folder / name).string(); }
-
     /// The picture that `render LINE` writes; expects success.
     [[nodiscard]] std::string renderHere(const std::string &line, const std::string &fakes) {
         const Outcome outcome =

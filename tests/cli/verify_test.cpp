@@ -22,9 +22,6 @@ class Verify : public FaultyDevice {
         FaultyDevice::TearDown();
     }
 
-    [[nodiscard]] std::string path(const std::string &name) const { return (folder / name).string(); }
-    [[nodiscard]] Json report() const { return Json::parse(load("r.json")); }
-
     /// From now on the shipped films are those for which `change` returns true, as it leaves their rows.
     void changeFilms(const std::function<bool(Json &)> &change) const {
         fs::create_directory(folder / "assets");
