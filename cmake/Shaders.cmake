@@ -65,9 +65,13 @@ function(hyalite_kernel target variable source)
     set_property(TARGET ${target} PROPERTY HYALITE_DEFINITIONS_${variable} "${definitions}")
     list(TRANSFORM kernel_DEFINITIONS PREPEND -D)
     set(base ${folder}/${variable})
+    set(language)
+    if(definitions MATCHES "TRAVERSAL_RAY_QUERY=1") # which GLSL has from 4.60 on
+        set(language --glsl-version 460)
+    endif()
     add_custom_command(
         OUTPUT ${base}.glslang.spv
-        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${kernel_DEFINITIONS} ${includes}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 ${language} ${kernel_DEFINITIONS} ${includes}
                 --depfile ${base}.d -o ${base}.glslang.spv ${source}
         DEPENDS ${source} layout_macros_header
         DEPFILE ${base}.d

@@ -50,6 +50,9 @@ void printTable(const std::vector<gpu::DeviceInfo> &devices, Observer &observer)
                     device.canPreserveSignedZeroInfNan ? "yes" : "not offered");
         printResult("   arithmetic  {} / and sqrt\n", device.hasExactDivisionListed ? "native" : "own");
         printKernels(device, observer);
+        printResult("   ray query   {}\n", device.maxQueryBoxes > 0
+                                               ? "by `--kernel ray-query` alone: not measured on a GPU"
+                                               : "not offered");
         printResult("   equal bits  {}\n", equalBitsOf(device, observer));
         printResult("   usable      {}\n", device.isUsable() ? "yes" : "no: " + device.rejection);
     }

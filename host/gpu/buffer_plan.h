@@ -9,11 +9,14 @@
 namespace hyalite::core::gpu {
 
 enum class BufferUse {
-    Uniform,  ///< small constants
-    Storage,  ///< bulk data, in device memory that the host may not see
-    Texels,   ///< the same, read by kernels as texels of four 32-bit words
-    Counters, ///< storage that the host reads and writes between dispatches: in host memory
-    Staging,  ///< staging buffers for transfers, in host memory
+    Uniform,     ///< small constants
+    Storage,     ///< bulk data, in device memory that the host may not see
+    Texels,      ///< the same, read by kernels as texels of four 32-bit words
+    Counters,    ///< storage that the host reads and writes between dispatches: in host memory
+    Staging,     ///< staging buffers for transfers, in host memory
+    BuildInput,  ///< what acceleration structures are built from, and in
+    BottomLevel, ///< an acceleration structure of boxes
+    TopLevel,    ///< of bottom levels: it is bound
 };
 
 struct BufferPlan {

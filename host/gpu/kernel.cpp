@@ -67,6 +67,11 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
 
     std::vector<VkDescriptorBufferInfo> infos(buffers.size());
     std::vector<VkBufferView> views(buffers.size());
+    VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+    VkWriteDescriptorSetAccelerationStructureKHR structureInfo{};
+    structureInfo.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR;
+    structureInfo.accelerationStructureCount = 1;
+    structureInfo.pAccelerationStructures = &structure; // a kernel has one at most
     std::vector<VkWriteDescriptorSet> writes(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
@@ -77,6 +82,9 @@ void Kernel::makeDescriptors(std::span<const Buffer *const> buffers) {
         if (buffers[i]->use() == BufferUse::Texels) {
             views[i] = buffers[i]->view();
             writes[i].pTexelBufferView = &views[i];
+        } else if (buffers[i]->use() == BufferUse::TopLevel) {
+            structure = buffers[i]->structure();
+            writes[i].pNext = &structureInfo;
         } else {
             infos[i] = {buffers[i]->get(), 0, VK_WHOLE_SIZE};
             writes[i].pBufferInfo = &infos[i];

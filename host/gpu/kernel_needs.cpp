@@ -36,6 +36,8 @@ std::string lackFor(const KernelRow &kernel, const DeviceInfo &device) {
             return lack;
     if (kernel.lanes == KernelLanes::Exchanging && !device.canShuffle)
         return "offers no subgroup shuffles and sums in compute kernels";
+    if (kernel.tree == KernelTree::PrimitiveBoxes && device.maxQueryBoxes == 0)
+        return "offers no ray queries (VK_KHR_ray_query)";
     return {};
 }
 

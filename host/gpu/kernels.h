@@ -29,9 +29,10 @@ inline constexpr std::array<std::pair<std::string_view, Workload>, 3> workloadNa
 
 /// The tree in device memory.
 enum class KernelTree {
-    NodePairs, ///< that of the packed scene
-    WideNodes, ///< made of it for the device: up to eight children a node
-    SkipLists  ///< made of it for the device. Triangles are tested in pairs; few triangles have no tree
+    NodePairs,     ///< that of the packed scene
+    WideNodes,     ///< made of it for the device: up to eight children a node
+    SkipLists,     ///< made of it for the device. Triangles are tested in pairs; few triangles have no tree
+    PrimitiveBoxes ///< the device's own, for ray queries
 };
 
 /// What a kernel reads the scene through.
@@ -107,6 +108,15 @@ inline constexpr auto kernelTable = std::to_array<KernelRow>({
      .drive = KernelDrive::Plain,
      .raysAtOnce = 1,
      .suits = {.software = {0, 0, 0}, .others = 4}},
+    {.name = "ray-query",
+     .trace = "Query",
+     .tree = KernelTree::PrimitiveBoxes,
+     .hasStack = false,
+     .memory = KernelMemory::StorageBuffers,
+     .lanes = KernelLanes::Independent,
+     .drive = KernelDrive::Plain,
+     .raysAtOnce = 1,
+     .suits = {.software = {0, 0, 0}, .others = 0}},
     {.name = "skip-list",
      .trace = "Skip",
      .tree = KernelTree::SkipLists,

@@ -4,6 +4,7 @@
 #include "host/base/host_memory.h"
 #include "host/base/quantities.h"
 #include "host/packing/light_planes.h"
+#include "host/packing/primitive_boxes.h"
 #include "host/packing/skip_list.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,10 @@ namespace {
 
 constexpr std::uint64_t bytesPerTexel = 16;
 constexpr std::uint64_t maxWaitingBytes = 256u << 20;
+
+/// Of a tree for ray queries while it is made, estimated, as drivers have their own: the box itself, scratch memory, and
+/// nodes. Mesa 25 takes 24 and 88 bytes on the CPU.
+constexpr std::uint64_t bytesPerQueryBox = 192;
 
 /// Maximum tile size for the resumable helper kernel. It keeps the memory of waiting paths small, and its dispatches
 /// short.
@@ -142,6 +147,11 @@ ScenePlan planScene(const PackedScene &scene, const KernelRow &kernel) {
             plan("the wide nodes", use, scene.nodes.size() * sizeof(layout::WideNode));
         planned.hostBytes =
             planned.buffers[layout::bindingNodes].sizeBytes + std::span(scene.instances).size_bytes();
+    } else if (kernel.tree == KernelTree::PrimitiveBoxes) {
+        const std::uint64_t boxes = countPrimitiveBoxes(scene);
+        planned.buffers[layout::bindingNodes] =
+            plan("the boxes of ray queries", BufferUse::TopLevel, boxes * bytesPerQueryBox);
+        planned.hostBytes = boxes * sizeof(Box) + std::span(scene.instances).size_bytes();
     } else {
         planned.buffers[layout::bindingNodes] = plan("the nodes", use, std::span(scene.nodes).size_bytes());
     }

@@ -15,9 +15,9 @@ namespace hyalite::core::gpu {
 
 /// A scene on a device.
 struct ScenePlan {
-    /// By binding. Skip lists may become smaller than their plan.
+    /// By binding. Skip lists may become smaller than their plan; the tree of ray queries is estimated.
     std::array<BufferPlan, layout::sceneBufferCount> buffers;
-    std::uint64_t hostBytes = 0; ///< needed while skip lists are made
+    std::uint64_t hostBytes = 0; ///< needed while the kernel's tree is made
 };
 
 [[nodiscard]] ScenePlan planScene(const PackedScene &scene, const KernelRow &kernel);

@@ -40,7 +40,9 @@ struct RayScene::State {
           stackSize(stackSizeFor(scene)), hasInstances(!scene.instances.empty()),
           hasPairs(row.tree == KernelTree::SkipLists && scene.hasPairs),
           isDivisionExact(
-              chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {}
+              chooseArithmetic(device.info(), checkDevice(device), Arithmetic::Automatic).isNative) {
+        buffers.setFrame(frameOf(scene, RenderSettings{}));
+    }
 };
 
 RayScene::RayScene(const DeviceInfo &device, const PackedScene &scene, const KernelRow &kernel)

@@ -1,6 +1,11 @@
 #include "host/gpu/scene_buffers.h"
 
+#include "host/base/error.h"
+#include "host/gpu/vk/ray_query.h"
+#include "host/packing/primitive_boxes.h"
 #include "host/packing/wide_tree.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -18,12 +23,21 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
     return buffer;
 }
 
+void requireQueryBoxes(std::uint64_t count, const DeviceInfo &device) {
+    if (count > device.maxQueryBoxes)
+        throw Error(
+            ErrorKind::LimitExceeded,
+            fmt::format("ray queries need {} boxes, one for each primitive of each instance; {} allows {}",
+                        count, device.name, device.maxQueryBoxes));
+}
+
 } // namespace
 
 SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const ScenePlan &plan,
                            const KernelRow &kernel)
     : lists_(kernel.tree == KernelTree::SkipLists ? makeSkipList(scene) : SkipList{}) {
     WideTree wide;
+    PrimitiveBoxes primitives;
     std::span<const std::byte> treeBytes = std::as_bytes(std::span(scene.nodes));
     std::span<const std::byte> instances = std::as_bytes(std::span(scene.instances));
     if (kernel.tree == KernelTree::SkipLists) {
@@ -33,13 +47,27 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
         wide = makeWideTree(scene);
         treeBytes = std::as_bytes(std::span(wide.nodes));
         instances = std::as_bytes(std::span(wide.instances));
+    } else if (kernel.tree == KernelTree::PrimitiveBoxes) {
+        requireQueryBoxes(countPrimitiveBoxes(scene), device.info());
+        primitives = makePrimitiveBoxes(scene);
+        ownTriangles_ = primitives.counts.front();
+        instances = std::as_bytes(std::span(primitives.instances));
     }
-    BufferPlan treePlan = plan.buffers[layout::bindingNodes];
-    assert(treeBytes.size() <= treePlan.sizeBytes);
-    treePlan.sizeBytes = treeBytes.size();
-    Buffer tree = uploaded(device, treePlan, treeBytes);
+    const auto makeTree = [&] {
+        BufferPlan treePlan = plan.buffers[layout::bindingNodes];
+        assert(treeBytes.size() <= treePlan.sizeBytes);
+        treePlan.sizeBytes = treeBytes.size();
+        return uploaded(device, treePlan, treeBytes);
+    };
+    const auto makeQueryTree = [&] {
+        QueryTree tree = buildQueryTree(device, primitives.boxes, primitives.counts);
+        boxes_.emplace(std::move(tree.bottom));
+        return std::move(tree.top);
+    };
+    Buffer tree = kernel.tree == KernelTree::PrimitiveBoxes ? makeQueryTree() : makeTree();
     lists_.nodes = {}; // the largest part of a large scene: before the other buffers take memory
     wide.nodes = {};
+    primitives.boxes = std::vector<Box>();
 
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
@@ -59,6 +87,8 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
     layout::FrameRecord record = frame;
     lists_.describe(record);
+    if (boxes_)
+        record.topListLength = ownTriangles_;
     buffers[layout::bindingFrame].upload(std::as_bytes(std::span(&record, 1)));
 }
 

@@ -6,6 +6,8 @@
 #include "host/packing/packed_scene.h"
 #include "host/packing/skip_list.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hyalite::core::gpu {
@@ -21,6 +23,8 @@ struct SceneBuffers {
 
   private:
     SkipList lists_; ///< if the kernel's tree is one; without their nodes and instances, which are uploaded
+    std::optional<Buffer> boxes_;    ///< to which the tree of ray queries refers
+    std::uint32_t ownTriangles_ = 0; ///< of the scene's own tree, for ray queries
 };
 
 } // namespace hyalite::core::gpu

@@ -44,6 +44,7 @@ nlohmann::ordered_json deviceToJson(const gpu::DeviceInfo &device, Observer &obs
     entry["maxWorkgroupCount"] = device.maxWorkgroupCount;
     entry["subgroupSize"] = device.subgroupSize;
     entry["hasTimestamps"] = device.hasTimestamps;
+    entry["canQueryRays"] = device.maxQueryBoxes > 0;
     entry["canRoundToNearestEven"] = device.canRoundToNearestEven;
     entry["canPreserveSignedZeroInfNan"] = device.canPreserveSignedZeroInfNan;
     entry["hasExactDivisionListed"] = device.hasExactDivisionListed;

@@ -44,3 +44,8 @@ vec2 relativeBoxInterval(BoxRay ray, vec3 lower, vec3 upper) {
 vec2 boxInterval(BoxRay ray, vec3 lower, vec3 upper) {
     return relativeBoxInterval(ray, lower - ray.origin, upper - ray.origin);
 }
+
+// How far the boxes of ray queries reach beyond those of primitives, on every side, for tests by the device. It is twice
+// the pad, or more, of rays whose reach is at most 128 times the size of all boxes together, so that 16 u M remain for
+// the device's own rounding. `lower` and `upper` bound all boxes.
+float queryBoxPad(vec3 lower, vec3 upper) { return largestComponent(upper - lower) * (1.0 / 4096.0); }

@@ -14,7 +14,7 @@ const uint bindingSphereConstants = 1u; // spheres outside the tree, maxUnrolled
 const uint bindingLightConstants = 2u;  // the first lights again, maxUniformLights at most
 const uint bindingPairConstants = 3u;   // all triangles if they are few, maxListedTriangles at most
 const uint uniformBufferCount = 4u;
-const uint bindingNodes = 4u; // node pairs, or skip nodes
+const uint bindingNodes = 4u; // node pairs, wide nodes, skip nodes, or an acceleration structure
 
 // Scene arrays: a row each, in the order of their bindings. The row is the only place to edit: PackedScene gets a
 // vector of the name, which is planned, counted, uploaded and bound, and both renderers read its records by the fetch

@@ -126,7 +126,7 @@ struct InstanceRecord {
     uint firstPrimitive; // id of its first triangle
     uint tree;           // index of the mesh among the meshes with instances
     uint root;           // of the mesh's tree: a node pair
-    uint listBegin;      // of the mesh's tree in each of the two skip lists
+    uint listBegin;      // of the mesh's tree in each of the two skip lists; or of its triangles, for ray queries
     uint listEnd;
 };
 
@@ -601,7 +601,8 @@ struct FrameRecord {
     float focusDistance;          // along the view direction
     float radianceLimit; // path: bound per channel on each contribution from the second hit on; or infinity
     uint filterTexels;   // the first one
-    // Nodes of the scene's own tree in each skip list; those of meshes with instances follow.
+    // Nodes of the scene's own tree in each skip list, or its triangles for ray queries; those of meshes with instances
+    // follow.
     uint topListLength;
     uint firstTriangleId; // of the triangle with input index 0
     uint sheenTexels;     // the first one

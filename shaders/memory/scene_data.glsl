@@ -56,6 +56,6 @@ uvec4 fetchTriangleRow(uint row) {
 SCENE_ARRAY(bindingNodes, 4u, skipNodes, SkipNode, fetchSkipNode)
 #elif TREE_WIDE
 SCENE_ARRAY(bindingNodes, 4u, wideNodes, WideNode, fetchWideNode)
-#else
+#elif !TRAVERSAL_RAY_QUERY
 SCENE_ARRAY(bindingNodes, 4u, nodes, NodePair, fetchNode)
 #endif

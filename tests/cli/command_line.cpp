@@ -101,6 +101,11 @@ std::string softwareDevice() {
     throw std::runtime_error("no usable software device: install mesa-vulkan-drivers");
 }
 
+bool hasKernel(const gpu::KernelRow *kernel) {
+    const bool queriesRays = kernel != nullptr && kernel->tree == gpu::KernelTree::PrimitiveBoxes;
+    return !queriesRays || listDevices().at(std::stoul(softwareDevice())).at("canQueryRays").get<bool>();
+}
+
 std::string wavySheetObj(int n) {
     std::string text;
     for (int y = 0; y <= n; ++y)

@@ -1,6 +1,7 @@
 // What the tests of commands share: a folder of their own in which commands run as they are typed, and small scenes.
 #pragma once
 
+#include "host/gpu/kernels.h"
 #include "host/image/image.h"
 #include "tests/cli/program.h"
 #include "tests/cli/words.h"
@@ -56,6 +57,8 @@ class CommandLine : public ::testing::Test {
 [[nodiscard]] nlohmann::json listDevices();
 /// The index of a software device: the one that is sure to round as the reference renderer does.
 [[nodiscard]] std::string softwareDevice();
+/// Whether that device can run the kernel; null: any.
+[[nodiscard]] bool hasKernel(const gpu::KernelRow *kernel);
 
 /// A wavy sheet of 2 n^2 triangles over [-1, 1]^2, seen best from +z. Its facets shadow and hide each other.
 [[nodiscard]] std::string wavySheetObj(int n);

@@ -62,6 +62,8 @@ TEST_F(Tuning, OfTheseKernelsDecidesAndChangesNoBit) {
     const std::string hash = hashText(gpu::hashOfKernels());
     const std::string wanted = renderPfm(smallTuned + " --device cpu");
     for (const gpu::KernelRow &kernel : gpu::kernelTable) {
+        if (!hasKernel(&kernel))
+            continue;
         tune(std::string(kernel.name), hash);
         EXPECT_EQ(kernelOf(smallTuned), kernel.name);
         EXPECT_EQ(load("reported.pfm"), wanted) << kernel.name;

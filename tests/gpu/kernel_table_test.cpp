@@ -1,4 +1,5 @@
 // The table of kernels beside what the build embeds, and the automatic choice.
+#include "host/gpu/kernel_needs.h"
 #include "host/gpu/kernels.h"
 #include "shaders/embedded_kernels.h"
 
@@ -44,6 +45,7 @@ TEST(KernelTable, IsThatOfTheBuild) {
             for (const std::string &definition :
                  {fmt::format("RAYS={} ", row.raysAtOnce),
                   fmt::format("TRAVERSAL_SKIP_LIST={:d} ", row.tree == KernelTree::SkipLists),
+                  fmt::format("TRAVERSAL_RAY_QUERY={:d} ", row.tree == KernelTree::PrimitiveBoxes),
                   fmt::format("TREE_WIDE={:d} ", row.tree == KernelTree::WideNodes),
                   fmt::format("DRIVE_PLAIN={:d} ", row.drive == KernelDrive::Plain),
                   fmt::format("MEMORY_TEXELS={:d} ", row.memory == KernelMemory::Texels),
@@ -90,6 +92,14 @@ TEST(ChooseKernel, TakesWhatSuitsTheDeviceAndTheWorkload) {
     EXPECT_EQ(chosenOn(hardware), "stack stack stack ") << "that needs the least, and is refused";
     const auto hasTwoRays = [](const KernelRow &row) { return row.raysAtOnce == 2; };
     EXPECT_EQ(chooseKernel(device(DeviceType::Cpu), Workload::Spheres, hasTwoRays).name, "skip-list-x2");
+}
+
+TEST(KernelNeeds, NameTheExtensionThatRayQueriesNeed) {
+    DeviceInfo info = device(DeviceType::Discrete);
+    EXPECT_EQ(lackFor(*findKernel("ray-query"), info), "offers no ray queries (VK_KHR_ray_query)");
+    info.maxQueryBoxes = 1;
+    EXPECT_EQ(lackFor(*findKernel("ray-query"), info), "");
+    EXPECT_TRUE(findKernel("ray-query")->suits.isByNameOn(info));
 }
 
 TEST(KernelTable, HasOthersForWordsThatAreGone) {

@@ -69,6 +69,18 @@ TEST(MemoryPlan, HasAllThatASceneTakes) {
         << "they are made on the host";
 }
 
+TEST(MemoryPlan, EstimatesTheTreeOfRayQueries) {
+    PackedScene scene = sceneOf(1000);
+    scene.trees = {{.firstRecord = 0}, {.firstRecord = 600}};
+    EXPECT_EQ(planScene(scene, *findKernel("ray-query")).buffers[layout::bindingNodes].sizeBytes,
+              600u * 192u);
+    scene.instances.resize(3);
+    const ScenePlan plan = planScene(scene, *findKernel("ray-query"));
+    EXPECT_EQ(plan.buffers[layout::bindingNodes].sizeBytes, (600u + 3u * 400u) * 192u)
+        << "instances are placed";
+    EXPECT_EQ(plan.buffers[layout::bindingNodes].use, BufferUse::TopLevel);
+}
+
 TEST(MemoryPlan, KernelsThatStopInsideOfSamplesKeepTheirSlots) {
     const PackedScene scene = sceneOf(1000);
     const RenderConfig stack = completed({.kernel = findKernel("stack")}, device());

@@ -462,10 +462,11 @@ TEST(RenderConfig, AddsSamplesInFlightInTheirOrder) {
 TEST(RenderConfig, ResumesInsideTheTree) {
     const TestScene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
-    for (const gpu::KernelRow &kernel : gpu::kernelTable) {
-        const gpu::Result result = renderOnDevice(scene, {.steps = 20, .kernel = &kernel});
-        EXPECT_EQ(differingPixels(result.film, expected), 0u) << kernel.name;
-        EXPECT_GT(result.timing.dispatchCount, 5u) << kernel.name;
+    for (gpu::RenderConfig kernel : allKernels()) {
+        kernel.steps = 20;
+        const gpu::Result result = renderOnDevice(scene, kernel);
+        EXPECT_EQ(differingPixels(result.film, expected), 0u) << kernel.kernel->name;
+        EXPECT_GT(result.timing.dispatchCount, 5u) << kernel.kernel->name;
     }
 }
 

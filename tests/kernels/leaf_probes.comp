@@ -7,6 +7,7 @@
 
 #define MEMORY_TEXELS 0
 #define TRAVERSAL_SKIP_LIST 0
+#define TRAVERSAL_RAY_QUERY 0
 #define TREE_WIDE 0
 #include "shaders/layout/layout.h"
 #include "shaders/layout/buffers.h"

@@ -54,8 +54,19 @@ constexpr auto operandTable = [] {
     return table;
 }();
 
+/// Whether it is one of SPV_KHR_ray_query that kernels use. All have ids only.
+bool isOfRayQueries(spv::Op opcode) {
+    using enum spv::Op;
+    return opcode == OpTypeAccelerationStructureKHR ||
+           (opcode >= OpTypeRayQueryKHR && opcode <= OpRayQueryProceedKHR) ||
+           opcode == OpRayQueryGetIntersectionGeometryIndexKHR ||
+           opcode == OpRayQueryGetIntersectionPrimitiveIndexKHR;
+}
+
 std::string_view operandsOf(spv::Op opcode) {
     const auto i = static_cast<std::size_t>(opcode);
+    if (isOfRayQueries(opcode))
+        return "i";
     return i < operandTable.size() ? operandTable[i] : std::string_view();
 }
 

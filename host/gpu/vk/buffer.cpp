@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/base/huge_pages.h"
 #include "host/gpu/vk/check.h"
+#include "host/gpu/vk/extension_functions.h"
 
 #include <fmt/format.h>
 
@@ -27,6 +28,13 @@ VkBufferUsageFlags usageFlags(BufferUse use) {
         return transfer | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     case BufferUse::Texels:
         return transfer | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    case BufferUse::BuildInput:
+        return transfer | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+               VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    case BufferUse::BottomLevel:
+    case BufferUse::TopLevel:
+        return VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
+               VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     case BufferUse::Staging:
         break;
     }
@@ -77,6 +85,11 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
     allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = type;
+    VkMemoryAllocateFlagsInfo flags{};
+    flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    if ((create.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0)
+        allocate.pNext = &flags;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device.get(), &allocate, nullptr, &memory), "vkAllocateMemory for " + what);
     memory_ = MemoryHandle(device.get(), memory);
@@ -95,6 +108,21 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
         view_ = BufferViewHandle(device.get(), view);
         device.debugUtils().name(VK_OBJECT_TYPE_BUFFER_VIEW, view, "texels of " + name_);
     }
+    if (use == BufferUse::BottomLevel || use == BufferUse::TopLevel) {
+        VkAccelerationStructureCreateInfoKHR structureInfo{};
+        structureInfo.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR;
+        structureInfo.buffer = buffer;
+        structureInfo.size = sizeBytes_;
+        structureInfo.type = use == BufferUse::TopLevel ? VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR
+                                                        : VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
+        VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+        check(HYALITE_EXTENSION_FUNCTION(device.get(), vkCreateAccelerationStructureKHR)(
+                  device.get(), &structureInfo, nullptr, &structure),
+              "vkCreateAccelerationStructureKHR for " + what);
+        structure_ = AccelerationStructureHandle(device.get(), structure);
+        device.debugUtils().name(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, structure,
+                                 "structure of " + name_);
+    }
     if (device.isMappable(type) &&
         (!device.isStagingPreferred() || use == BufferUse::Counters || use == BufferUse::Staging)) {
         void *address = nullptr;
@@ -107,6 +135,13 @@ Buffer::Buffer(Device &device, std::string name, BufferUse use, std::size_t size
 
 Buffer::Buffer(Device &device, const BufferPlan &plan)
     : Buffer(device, plan.name, plan.use, static_cast<std::size_t>(plan.sizeBytes)) {}
+
+VkDeviceAddress Buffer::address() const {
+    VkBufferDeviceAddressInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    info.buffer = get();
+    return HYALITE_EXTENSION_FUNCTION(device_->get(), vkGetBufferDeviceAddressKHR)(device_->get(), &info);
+}
 
 void Buffer::upload(std::span<const std::byte> bytes, std::size_t offset) {
     assert(offset + bytes.size() <= sizeBytes_);

@@ -22,6 +22,10 @@ class Buffer {
     [[nodiscard]] VkBuffer get() const { return buffer_.get(); }
     /// A view of all texels; only for BufferUse::Texels.
     [[nodiscard]] VkBufferView view() const { return view_.get(); }
+    /// Only for BufferUse::BottomLevel and BufferUse::TopLevel.
+    [[nodiscard]] VkAccelerationStructureKHR structure() const { return structure_.get(); }
+    /// On the device; only for BufferUse::BuildInput.
+    [[nodiscard]] VkDeviceAddress address() const;
     [[nodiscard]] BufferUse use() const { return use_; }
     [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
 
@@ -40,8 +44,9 @@ class Buffer {
     MemoryHandle memory_; ///< declared before the buffer: it is destroyed after it
     MemoryClaim claim_;
     BufferHandle buffer_;
-    BufferViewHandle view_;       ///< declared after the buffer: it is destroyed before it
-    std::byte *mapped_ = nullptr; ///< null if the host cannot map the memory
+    BufferViewHandle view_;                 ///< declared after the buffer: it is destroyed before it
+    AccelerationStructureHandle structure_; ///< likewise
+    std::byte *mapped_ = nullptr;           ///< null if the host cannot map the memory
 };
 
 } // namespace hyalite::core::gpu

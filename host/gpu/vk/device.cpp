@@ -3,9 +3,12 @@
 #include "host/base/error.h"
 #include "host/gpu/vk/check.h"
 #include "host/gpu/vk/physical_device.h"
+#include "host/gpu/vk/ray_query.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 namespace hyalite::core::gpu {
@@ -47,6 +50,13 @@ void Device::createDevice(std::uint32_t queueFamily) {
         extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     if (info_.isPortabilitySubset)
         extensions.push_back(portabilitySubset);
+    RayQueryFeatures rayQueries(VK_TRUE);
+    if (info_.maxQueryBoxes > 0) {
+        create.pNext = &rayQueries.queries;
+        for (const char *name : rayQueryExtensions)
+            if (std::ranges::find(extensions, std::string_view(name)) == extensions.end())
+                extensions.push_back(name);
+    }
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;

@@ -38,6 +38,7 @@ struct DeviceInfo {
     std::optional<bool> hasSlowShuffles{}; ///< as lane_exchange.h finds; empty: not measured
     bool hasTimestamps = false;
     bool hasCalibratedTimestamps = false;
+    std::uint64_t maxQueryBoxes = 0;  ///< in the tree of ray queries; 0: it offers none
     bool isPortabilitySubset = false; ///< lacks a part of Vulkan, and says so by an extension
     std::uint32_t driverId = 0;       ///< VkDriverId; 0: unknown
     /// Its / and sqrt are known to be correctly rounded: see arithmetic.h.

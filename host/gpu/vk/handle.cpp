@@ -1,5 +1,7 @@
 #include "host/gpu/vk/handle.h"
 
+#include "host/gpu/vk/extension_functions.h"
+
 #include <algorithm>
 #include <mutex>
 #include <vector>
@@ -21,6 +23,11 @@ void abandon(VkDevice device) {
 bool isAbandoned(VkDevice device) noexcept {
     const std::lock_guard lock(mutex);
     return std::find(abandoned.begin(), abandoned.end(), device) != abandoned.end();
+}
+
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks *callbacks) {
+    HYALITE_EXTENSION_FUNCTION(device, vkDestroyAccelerationStructureKHR)(device, structure, callbacks);
 }
 
 } // namespace hyalite::core::gpu

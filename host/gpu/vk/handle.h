@@ -15,6 +15,9 @@ struct NoParent {};
 void abandon(VkDevice device);
 [[nodiscard]] bool isAbandoned(VkDevice device) noexcept;
 
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks *callbacks);
+
 /// Destroys `object` with `destroy(parent, object, nullptr)`, or `destroy(object, nullptr)` for objects that have no
 /// parent (instances and devices), unless the device is abandoned. The parent must outlive the handle.
 template <class Object, auto destroy, class Parent = VkDevice> class Handle {
@@ -54,6 +57,7 @@ using InstanceHandle = Handle<VkInstance, vkDestroyInstance, NoParent>;
 using DeviceHandle = Handle<VkDevice, vkDestroyDevice, NoParent>;
 using BufferHandle = Handle<VkBuffer, vkDestroyBuffer>;
 using BufferViewHandle = Handle<VkBufferView, vkDestroyBufferView>;
+using AccelerationStructureHandle = Handle<VkAccelerationStructureKHR, destroyAccelerationStructure>;
 using MemoryHandle = Handle<VkDeviceMemory, vkFreeMemory>;
 using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
 using SetLayoutHandle = Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;

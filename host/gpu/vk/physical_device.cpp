@@ -3,6 +3,7 @@
 #include "host/gpu/arithmetic.h"
 #include "host/gpu/kernel_needs.h"
 #include "host/gpu/vk/check.h"
+#include "host/gpu/vk/ray_query.h"
 
 #include <fmt/format.h>
 
@@ -32,18 +33,6 @@ DeviceType deviceType(VkPhysicalDeviceType type) {
     default:
         return DeviceType::Other;
     }
-}
-
-/// Throws if the query fails, because treating the extension as missing would change what is rendered.
-bool hasExtension(VkPhysicalDevice device, const char *name) {
-    const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
-    std::uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), action);
-    std::vector<VkExtensionProperties> extensions(count);
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), action);
-    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
-        return std::strcmp(extension.extensionName, name) == 0;
-    });
 }
 
 std::string findRejection(VkPhysicalDevice device, const VkPhysicalDeviceProperties &properties) {
@@ -99,6 +88,7 @@ void describeByProperties2(VkPhysicalDevice device, std::uint32_t apiVersion, De
     info.canShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                       (subgroup.supportedOperations & operations) == operations;
     info.maxAllocationBytes = allocations.maxMemoryAllocationSize;
+    info.maxQueryBoxes = countQueryBoxes(device);
     const auto canRun = [&](const KernelRow &kernel) { return lackFor(kernel, info).empty(); };
     if (info.isUsable() && std::ranges::none_of(kernelTable, canRun))
         info.rejection = lackFor(kernelTable.front(), info);
@@ -115,6 +105,17 @@ void describeByProperties2(VkPhysicalDevice device, std::uint32_t apiVersion, De
 }
 
 } // namespace
+
+bool hasExtension(VkPhysicalDevice device, const char *name) {
+    const std::string action = fmt::format("vkEnumerateDeviceExtensionProperties for {}", name);
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), action);
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()), action);
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties &extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
 
 std::vector<VkQueueFamilyProperties> queueFamiliesOf(VkPhysicalDevice device) {
     std::uint32_t count = 0;

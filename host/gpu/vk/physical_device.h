@@ -14,6 +14,9 @@ namespace hyalite::core::gpu {
 /// its name among those of provisional extensions only.
 inline constexpr const char *portabilitySubset = "VK_KHR_portability_subset";
 
+/// Throws if the query fails, because treating the extension as missing would change what is rendered.
+[[nodiscard]] bool hasExtension(VkPhysicalDevice device, const char *name);
+
 /// Everything except the index.
 [[nodiscard]] DeviceInfo describePhysicalDevice(VkPhysicalDevice device);
 

@@ -17,6 +17,8 @@ VkDescriptorType descriptorTypeOf(BufferUse use) {
         return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BufferUse::Texels:
         return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    case BufferUse::TopLevel:
+        return VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     default:
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     }
