@@ -173,11 +173,12 @@ TEST_F(RenderDevice, TheKernelDoesNotChangeTheImage) {
     store("sheet.json", wavySheetScene());
     const std::string wanted = renderPfm("sheet.json" + smallOnDevice + " --device cpu");
     for (const auto &[kernel, row] : gpu::kernelNames)
-        if (hasKernel(row))
+        if (hasKernel(row)) {
             EXPECT_EQ(renderPfm(fmt::format("sheet.json{} --device {} --kernel {}", smallOnDevice,
                                             softwareDevice(), kernel)),
                       wanted)
                 << kernel;
+        }
 }
 
 TEST_F(RenderDevice, RefusesRayQueriesWhereTheDeviceHasNone) {

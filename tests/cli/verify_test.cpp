@@ -60,8 +60,10 @@ TEST_F(Verify, MayHaveTheKernelsThatAreNamed) {
 TEST_F(Verify, PassesOnAllDevices) {
     // Images have each kernel's pictures on the driver at hand; to compile them all takes a minute, or half an hour.
     std::set<std::string> wanted{"skip-list"};
+    gpu::DeviceInfo software;
+    software.type = gpu::DeviceType::Cpu;
     for (const gpu::KernelRow &kernel : gpu::kernelTable)
-        if (isTestingAll() && !kernel.suits.isByNameOn({.type = gpu::DeviceType::Cpu}))
+        if (isTestingAll() && !kernel.suits.isByNameOn(software))
             wanted.insert(std::string(kernel.name));
     const Outcome outcome = run("verify --report r.json --junit r.xml" +
                                 std::string(isTestingAll() ? "" : " --kernels skip-list"));

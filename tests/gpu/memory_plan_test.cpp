@@ -71,7 +71,7 @@ TEST(MemoryPlan, HasAllThatASceneTakes) {
 
 TEST(MemoryPlan, EstimatesTheTreeOfRayQueries) {
     PackedScene scene = sceneOf(1000);
-    scene.trees = {{.firstRecord = 0}, {.firstRecord = 600}};
+    scene.trees = {{0, 0, {}}, {0, 600, {}}};
     EXPECT_EQ(planScene(scene, *findKernel("ray-query")).buffers[layout::bindingNodes].sizeBytes,
               600u * 192u);
     scene.instances.resize(3);

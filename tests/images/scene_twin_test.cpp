@@ -462,7 +462,7 @@ TEST(RenderConfig, AddsSamplesInFlightInTheirOrder) {
 TEST(RenderConfig, ResumesInsideTheTree) {
     const TestScene scene = shippedScene("cat", 24, 24, 2);
     const Film expected = renderOnCpu(scene).film;
-    for (gpu::RenderConfig kernel : allKernels()) {
+    for (gpu::RenderConfig kernel : testing::allKernels()) {
         kernel.steps = 20;
         const gpu::Result result = renderOnDevice(scene, kernel);
         EXPECT_EQ(differingPixels(result.film, expected), 0u) << kernel.kernel->name;

@@ -65,14 +65,15 @@ std::vector<layout::RayRecord> drawRays(const PackedScene &scene, std::mt19937 &
     std::vector<layout::RayRecord> rays;
     while (rays.size() < raysAtOnce) {
         const layout::TriangleRecord &triangle = scene.triangles[random() % scene.triangles.size()];
-        const std::uint32_t kind = random();
+        const auto kind = static_cast<std::uint32_t>(random());
         const float u = (kind & 1) != 0 ? uniform(random) : 0.0f;
         const float v = (kind & 2) != 0 ? uniform(random) * (1.0f - u) : 0.0f;
         const glm::vec3 place =
             triangle.v0 + (triangle.v1 - triangle.v0) * u + (triangle.v2 - triangle.v0) * v;
-        constexpr float reaches[] = {0.5f, 3.0f, 100.0f, 3000.0f};
+        constexpr float reaches[] = {0.5f, 1.0f, 3.0f, 100.0f};
+        const float further = (kind >> 13 & 31) == 0 ? 3000.0f : 1.0f;
         glm::vec3 origin = middle + (glm::vec3(uniform(random), uniform(random), uniform(random)) - 0.5f) *
-                                        glm::length(size) * reaches[kind >> 2 & 3];
+                                        glm::length(size) * (reaches[kind >> 2 & 3] * further);
         if ((kind >> 4 & 3) == 0)
             origin[kind >> 6 & 1] = place[kind >> 6 & 1];
         if ((kind >> 7 & 7) == 0)
