@@ -135,7 +135,7 @@ OpenedRenderers openAll(const RendererNames &names, int threadCount, const gpu::
 }
 
 void announceDriver(Observer &observer, gpu::ProcessorUse processors, const gpu::RenderConfig &config) {
-    processors.hasStack = config.kernel != nullptr && config.kernel->hasStack;
+    processors.hasStack = config.kernel != nullptr && walksWithStack(*config.kernel);
     observer.beforeDriver(processors);
 }
 

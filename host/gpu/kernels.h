@@ -182,6 +182,11 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> fo
     return kernel.tree == KernelTree::NodePairs;
 }
 
+/// Whether rays go through the tree with a stack: one of ours, or the device's own.
+[[nodiscard]] constexpr bool walksWithStack(const KernelRow &kernel) {
+    return kernel.hasStack || kernel.tree == KernelTree::PrimitiveBoxes;
+}
+
 /// Whether both read the same buffers of a scene.
 [[nodiscard]] constexpr bool shareScenes(const KernelRow &a, const KernelRow &b) {
     return a.tree == b.tree && a.memory == b.memory;

@@ -163,12 +163,15 @@ class MeasurementRun {
             openBackend(request_.device, observer_, processorsFor(request_.threadCount, scene_), config);
         const BackendResult result =
             render(*counter, scene_.loaded.settings, {.name = "counting the kernel's work", .limit = limit_});
-        if (const double share = finishedShare(result.film); share < 1.0)
+        if (const double share = finishedShare(result.film); share < 1.0) {
             cutCount("the work of the kernel: the samples", share);
-        else
-            profile_.kernelWork =
-                KernelWork{counter->identity(scene_.packed, scene_.loaded.settings.integrator).kernel,
-                           result.work, result.lanes};
+        } else {
+            const std::string kernel =
+                counter->identity(scene_.packed, scene_.loaded.settings.integrator).kernel;
+            const gpu::KernelRow *row = gpu::findKernel(kernel);
+            const bool isDevices = row != nullptr && row->tree == gpu::KernelTree::PrimitiveBoxes;
+            profile_.kernelWork = KernelWork{kernel, result.work, result.lanes, !isDevices};
+        }
     }
 
     /// So few samples that they are a small part of most profiles; the same for pictures of one size.

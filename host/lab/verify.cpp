@@ -43,7 +43,7 @@ std::vector<std::vector<Kernel>> groupsOf(const std::string &device, const std::
         if (wanted.empty() ? row.suits.isByNameOn(info) : std::ranges::find(wanted, row.name) == wanted.end())
             continue;
         std::vector<Kernel> &last = groups.back();
-        const bool isOfLast = last.empty() || last.back().row->hasStack == row.hasStack;
+        const bool isOfLast = last.empty() || walksWithStack(*last.back().row) == walksWithStack(row);
         (isOfLast ? last : groups.emplace_back()).push_back({&row});
     }
     return groups;

@@ -29,6 +29,7 @@ struct KernelWork {
     std::string kernel;
     WorkCounts work;
     LaneCounts lanes;
+    bool countsNodes = true; ///< false: the tree is the device's own, and only triangles are counted
 };
 
 struct Profile {

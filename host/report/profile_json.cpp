@@ -81,7 +81,8 @@ nlohmann::ordered_json profileToJson(const Profile &profile) {
             json["work"]["withStack"][kind.name] = *profile.work.*kind.count;
     if (profile.kernelWork) {
         for (const WorkKind &kind : workKinds)
-            json["work"][profile.kernelWork->kernel][kind.name] = profile.kernelWork->work.*kind.count;
+            if (profile.kernelWork->countsNodes || kind.count == &WorkCounts::trianglesTested)
+                json["work"][profile.kernelWork->kernel][kind.name] = profile.kernelWork->work.*kind.count;
         const LaneCounts &lanes = profile.kernelWork->lanes;
         json["lanes"] = {{"passes", lanes.passes},
                          {"busySlots", lanes.busySlots},

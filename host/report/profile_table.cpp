@@ -79,9 +79,11 @@ std::string profileTable(const Profile &profile) {
                         profile.work->nodesVisited, profile.work->boxesTested, profile.work->trianglesTested,
                         profile.work->deepestStack);
     if (profile.kernelWork) {
-        const auto &[kernel, work, lanes] = *profile.kernelWork;
-        text += fmt::format("work of the kernel {}: {} nodes, {} boxes, {} triangles\n", kernel,
-                            work.nodesVisited, work.boxesTested, work.trianglesTested);
+        const auto &[kernel, work, lanes, countsNodes] = *profile.kernelWork;
+        const std::string nodes = countsNodes
+                                      ? fmt::format("{} nodes, {} boxes", work.nodesVisited, work.boxesTested)
+                                      : "nodes and boxes of the device's own tree";
+        text += fmt::format("work of the kernel {}: {}, {} triangles\n", kernel, nodes, work.trianglesTested);
         text += fmt::format("lanes of this device: {} passes of {} path slots, {} of them busy\n",
                             lanes.passes, lanes.slotsPerSubgroup, shareText(lanes.busyShare()));
     }
