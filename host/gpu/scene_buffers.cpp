@@ -23,6 +23,9 @@ Buffer uploaded(Device &device, const BufferPlan &plan, std::span<const std::byt
     return buffer;
 }
 
+/// Frees its memory, which assigning {} would keep.
+template <class Vector> void release(Vector &vector) { vector = Vector(); }
+
 void requireQueryBoxes(std::uint64_t count, const DeviceInfo &device) {
     if (count > device.maxQueryBoxes)
         throw Error(
@@ -65,9 +68,10 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
         return std::move(tree.top);
     };
     Buffer tree = kernel.tree == KernelTree::PrimitiveBoxes ? makeQueryTree() : makeTree();
-    lists_.nodes = {}; // the largest part of a large scene: before the other buffers take memory
-    wide.nodes = {};
-    primitives.boxes = std::vector<Box>();
+    // The largest part of a large scene: before the other buffers take memory.
+    release(lists_.nodes);
+    release(wide.nodes);
+    release(primitives.boxes);
 
     std::array<std::span<const std::byte>, layout::sceneBufferCount> bytes;
     bytes[layout::bindingSphereConstants] = std::as_bytes(std::span(scene.loopSpheres));
@@ -81,7 +85,7 @@ SceneBuffers::SceneBuffers(Device &device, const PackedScene &scene, const Scene
         if (binding != layout::bindingNodes)
             buffers.push_back(uploaded(device, plan.buffers[binding], bytes[binding]));
     buffers.insert(buffers.begin() + layout::bindingNodes, std::move(tree));
-    lists_.instances = {};
+    release(lists_.instances);
 }
 
 void SceneBuffers::setFrame(const layout::FrameRecord &frame) {
