@@ -114,7 +114,7 @@ void print(const SoakVerdict &verdict, bool isQuiet) {
     printResult("  {}\n", summaryOf(verdict));
 }
 
-void write(std::optional<AtomicFile> &file, const std::string &text) {
+void store(std::optional<AtomicFile> &file, const std::string &text) {
     if (!file)
         return;
     file->write(text);
@@ -169,8 +169,8 @@ ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &option
             judgeSpeeds(verdict, expected);
         print(verdict, isQuiet);
     }
-    write(junit, soakToJunit(verdicts));
-    write(report, jsonText(soakToJson(loads, verdicts, commandLine)));
+    store(junit, soakToJunit(verdicts));
+    store(report, jsonText(soakToJson(loads, verdicts, commandLine)));
     const bool isSound = std::ranges::all_of(verdicts, &SoakVerdict::isSound);
     printResult("{}\n", isSound ? "sound" : "FAULTY");
     if (const std::optional<Stop> stop = observer.wantsStop(); stop && isSound)

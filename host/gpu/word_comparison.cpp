@@ -10,7 +10,7 @@ namespace hyalite::core::gpu {
 
 namespace {
 
-constexpr std::uint32_t groupSize = 64;
+constexpr std::uint32_t wordGroupSize = 64;
 constexpr std::uint32_t maxGroups = 1u << 14;
 
 struct Record {
@@ -24,7 +24,7 @@ constexpr std::array<BufferUse, 3> uses{BufferUse::Storage, BufferUse::Storage, 
 
 std::uint32_t wordGroups(std::uint32_t count, const DeviceInfo &device) {
     const std::uint32_t most = std::min(maxGroups, device.maxWorkgroupCount);
-    return std::clamp((count + groupSize - 1) / groupSize, 1u, most);
+    return std::clamp((count + wordGroupSize - 1) / wordGroupSize, 1u, most);
 }
 
 ExpectedWords::ExpectedWords(Device &device, std::span<const std::uint32_t> words)
