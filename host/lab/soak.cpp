@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <span>
 #include <utility>
@@ -145,7 +146,7 @@ class RunningLoad {
 class FilmLoad : public RunningLoad {
   public:
     FilmLoad(Soak &soak, const Loads &loads, const Load &load, bool isLarge, Backend &backend)
-        : RunningLoad(soak, load.name, "rays"), loads_(loads), load_(load),
+        : RunningLoad(soak, load.name, "rays"), loads_(loads), load_(load), isShared_(!isLarge),
           size_(isLarge ? load.large : load.small), backend_(backend) {}
 
   protected:
@@ -191,18 +192,17 @@ class FilmLoad : public RunningLoad {
     [[nodiscard]] const RenderSettings &settings() const { return scene_->loaded.settings; }
 
     void repeat(const std::function<bool()> &wantsMore) {
-        passWatch_ = Stopwatch();
+        PassTime time;
         bool isHanging = false;
         const auto shouldStop = [&] {
-            Stopwatch now = passWatch_;
-            isHanging = isHanging || now.lap().seconds() > longestPass();
+            isHanging = isHanging || time.seconds(isShared_) > longestPass();
             return isHanging || soak_.isStopped();
         };
         const auto onPass = [&](const RepeatedPass &pass) {
-            passWatch_ = Stopwatch();
             judge(pass);
+            time = PassTime();
             // What films are compared with is uploaded anew by the next slice.
-            return !std::exchange(isCopyWrong_, false) && wantsMore();
+            return !std::exchange(isCopyWrong_, false) && !closed_ && wantsMore();
         };
         backend_.repeat(scene_->packed, settings(), *expected_, {.shouldStop = shouldStop, .onPass = onPass});
         if (!isHanging)
@@ -211,6 +211,20 @@ class FilmLoad : public RunningLoad {
         throw Error(ErrorKind::DeviceLost,
                     fmt::format("a pass did not end in {:.0f} s, and was given up", longestPass()));
     }
+
+    /// From the beginning of a pass.
+    struct PassTime {
+        Stopwatch wall{};
+        std::clock_t processor = std::clock();
+
+        /// `isShared`: a renderer that computes on processors may have to wait for them while others are busy.
+        [[nodiscard]] double seconds(bool isShared) const {
+            Stopwatch watch = wall;
+            const double passed = watch.lap().seconds();
+            const double used = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+            return isShared ? std::min(passed, used) : passed;
+        }
+    };
 
     /// Seconds after which a pass will not end: paths of damaged data may go on for ever.
     [[nodiscard]] double longestPass() const {
@@ -369,6 +383,7 @@ class FilmLoad : public RunningLoad {
 
     const Loads &loads_;
     const Load &load_;
+    bool isShared_; ///< the renderer computes on processors
     const LoadSize &size_;
     Backend &backend_;
     std::optional<PreparedScene> scene_;
@@ -380,8 +395,7 @@ class FilmLoad : public RunningLoad {
     std::optional<SoakFault> closed_; ///< which came in all of them
     std::size_t openIndex_ = 0;       ///< of its pixel
     bool isNew_ = false;              ///< of this pass
-    Stopwatch passWatch_;
-    bool isCopyWrong_ = false; ///< of the expected film, on the device
+    bool isCopyWrong_ = false;        ///< of the expected film, on the device
 };
 
 // ---- Memory and arithmetic

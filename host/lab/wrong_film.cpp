@@ -14,7 +14,7 @@ constexpr std::size_t wordCount = sizeof(layout::FilmPixel) / sizeof(std::uint32
 /// The members of layout::FilmPixel, word by word.
 constexpr std::array<std::string_view, wordCount> wordNames{
     "sum.red",         "sum.green",         "sum.blue",         "sampleCount",
-    "sumRest.red",     "sumRest.green",     "sumRest.blue",     "",
+    "sumRest.red",     "sumRest.green",     "sumRest.blue",     "padding",
     "squares.red",     "squares.green",     "squares.blue",     "transparency",
     "squaresRest.red", "squaresRest.green", "squaresRest.blue", "transparencyRest"};
 
@@ -30,7 +30,7 @@ std::vector<WrongFilmWord> wrongWords(const layout::FilmPixel &found, const layo
     const auto b = std::bit_cast<Words>(expected);
     std::vector<WrongFilmWord> wrong;
     for (std::size_t i = 0; i < wordCount; ++i)
-        if (a[i] != b[i] && !wordNames[i].empty())
+        if (a[i] != b[i])
             wrong.push_back({wordNames[i], a[i], b[i]});
     return wrong;
 }
