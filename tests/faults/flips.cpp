@@ -119,9 +119,9 @@ void Flips::lookAtFilm() {
 void Flips::beforeSubmission() {
     const std::lock_guard lock(mutex_);
     const bool isComparison = std::exchange(isComparison_, false);
-    if (film_.empty() && !isComparison)
+    if (!hasCompared_ && !isComparison)
         return; // it is not known yet how films should be
-    const bool isFirst = film_.empty();
+    const bool isFirst = !std::exchange(hasCompared_, true);
     if (!isFirst && ++submissions_ % period_ == 0)
         flip();
     if (isComparison)

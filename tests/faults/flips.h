@@ -63,6 +63,7 @@ class Flips {
     std::map<VkDeviceMemory, void *> mapped_;
     std::set<std::uint64_t> comparisons_; ///< pipelines
     bool isComparison_ = false;           ///< the next submission
+    bool hasCompared_ = false;            ///< a former one
     std::vector<std::uint32_t> film_;     ///< as it should be
 };
 

@@ -32,6 +32,7 @@ namespace {
     X(vkAllocateMemory)                                                                                      \
     X(vkBeginCommandBuffer)                                                                                  \
     X(vkCreateBufferView)                                                                                    \
+    X(vkCreateAccelerationStructureKHR)                                                                      \
     X(vkCreateCommandPool)                                                                                   \
     X(vkCreateComputePipelines)                                                                              \
     X(vkCreateDescriptorPool)                                                                                \
@@ -46,6 +47,7 @@ namespace {
     X(vkWaitForFences)
 // What undoes them.
 #define HYALITE_DESTROY_CALLS(X)                                                                             \
+    X(vkDestroyAccelerationStructureKHR, "vkCreateAccelerationStructureKHR")                                 \
     X(vkDestroyBufferView, "vkCreateBufferView")                                                             \
     X(vkDestroyCommandPool, "vkCreateCommandPool")                                                           \
     X(vkDestroyDescriptorPool, "vkCreateDescriptorPool")                                                     \

@@ -218,17 +218,22 @@ void readMeshes(Buffers &buffers, const std::vector<MeshUse> &uses, const OnRead
     addWarnings(reader.findings(), buffers.document().fileName(), file.report);
 }
 
-/// Those of the nodes whose meshes and lights are shown: KHR_node_visibility. A node hides all below it, but no camera.
-std::vector<std::size_t> shownNodes(const Document &document, const NodeTree &tree,
-                                    std::vector<std::size_t> nodes) {
-    std::vector<bool> hides;
-    for (const JsonNode &node : elementsOf(document.top(), "nodes")) {
-        const auto visibility = extensionOf(JsonObject(node), "KHR_node_visibility");
-        hides.push_back(visibility && !visibility->boolean("visible", true));
+/// Those of the nodes whose meshes and lights are shown, where some are not: KHR_node_visibility. A node hides all below
+/// it, but no camera. Empty: all are shown.
+std::optional<std::vector<std::size_t>> nodesShown(const Document &document, const NodeTree &tree,
+                                                   const std::vector<std::size_t> &nodes,
+                                                   std::size_t nodeCount) {
+    std::vector<bool> hides(nodeCount);
+    for (std::size_t i = 0; i < nodeCount; ++i) {
+        const auto visibility = extensionOf(JsonObject(document.at("nodes", i)), "KHR_node_visibility");
+        hides[i] = visibility && !visibility->boolean("visible", true);
     }
+    if (std::ranges::find(hides, true) == hides.end())
+        return std::nullopt;
     const std::vector<bool> hidden = tree.below(std::move(hides));
-    std::erase_if(nodes, [&](std::size_t node) { return hidden[node]; });
-    return nodes;
+    std::vector<std::size_t> shown;
+    std::ranges::copy_if(nodes, std::back_inserter(shown), [&](std::size_t node) { return !hidden[node]; });
+    return shown;
 }
 
 /// Whether one of the nodes that move has a mesh or a light. Joints of a skin may be any node: a mesh with a skin
@@ -356,7 +361,8 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     const std::vector<Pose> &poses = moved ? *moved : rest;
     const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
     const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
-    const std::vector<std::size_t> shown = shownNodes(document, tree, nodes);
+    const std::optional<std::vector<std::size_t>> some = nodesShown(document, tree, nodes, poses.size());
+    const std::vector<std::size_t> &shown = some ? *some : nodes;
 
     TextureReader textureReader(buffers, near, textures);
     Materials materials = readMaterials(document, textureReader);
