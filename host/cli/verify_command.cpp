@@ -1,9 +1,9 @@
-#include "host/base/atomic_file.h"
 #include "host/base/json_text.h"
 #include "host/base/message.h"
 #include "host/cli/commands.h"
 #include "host/cli/device_options.h"
 #include "host/cli/options.h"
+#include "host/cli/requested_file.h"
 #include "host/cli/terminal_observer.h"
 #include "host/cli/verify_soak.h"
 #include "host/cli/verify_subjects.h"
@@ -121,12 +121,8 @@ DeviceVerdict verifyWithProgress(const Subject &subject, const ShippedFilms &shi
 ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine) {
     requireDistinctFiles({{"--junit", options.junit}, {"--report", options.report}},
                          {{"--expect", options.soak.expect}});
-    std::optional<AtomicFile> junit;
-    std::optional<AtomicFile> report;
-    if (!options.junit.empty())
-        junit.emplace(options.junit);
-    if (!options.report.empty())
-        report.emplace(options.report);
+    RequestedFile junit(options.junit);
+    RequestedFile report(options.report);
     ShippedFilms shipped = readShippedFilms();
     keepScenes(shipped, options.scenes);
     requireKernels(options.kernels);
@@ -157,14 +153,10 @@ ExitCode runVerify(const VerifyOptions &options, const std::string &commandLine)
             print(verdict);
         std::fflush(stdout); // a later device may take long, or crash its driver
     }
-    if (junit) {
-        junit->write(verificationToJunit(verdicts));
-        junit->commit();
-    }
-    if (report) {
-        report->write(jsonText(verificationToJson(shipped, verdicts, commandLine)));
-        report->commit();
-    }
+    if (junit)
+        junit.store(verificationToJunit(verdicts));
+    if (report)
+        report.store(jsonText(verificationToJson(shipped, verdicts, commandLine)));
     const bool isPassed = std::ranges::all_of(verdicts, &DeviceVerdict::isPassed);
     printResult("{}\n", isPassed ? "equal, bit for bit" : "NOT equal");
     return isPassed ? ExitCode::Ok : ExitCode::AnswerIsNo;

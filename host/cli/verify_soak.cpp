@@ -114,13 +114,6 @@ void print(const SoakVerdict &verdict, bool isQuiet) {
     printResult("  {}\n", summaryOf(verdict));
 }
 
-void store(std::optional<AtomicFile> &file, const std::string &text) {
-    if (!file)
-        return;
-    file->write(text);
-    file->commit();
-}
-
 } // namespace
 
 void addSoakOptions(CLI::App &command, SoakOptions &options) {
@@ -154,9 +147,8 @@ void requireSoak(const SoakOptions &options) {
             refuseValue("--loads", name, quotedList(words) + suggestion(name, words));
 }
 
-ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &options,
-                 std::optional<AtomicFile> &junit, std::optional<AtomicFile> &report, bool isQuiet,
-                 const std::string &commandLine) {
+ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &options, RequestedFile &junit,
+                 RequestedFile &report, bool isQuiet, const std::string &commandLine) {
     std::vector<ExpectedSpeed> expected;
     if (!options.expect.empty())
         expected = readExpectedSpeeds(options.expect);
@@ -169,8 +161,10 @@ ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &option
             judgeSpeeds(verdict, expected);
         print(verdict, isQuiet);
     }
-    store(junit, soakToJunit(verdicts));
-    store(report, jsonText(soakToJson(loads, verdicts, commandLine)));
+    if (junit)
+        junit.store(soakToJunit(verdicts));
+    if (report)
+        report.store(jsonText(soakToJson(loads, verdicts, commandLine)));
     const bool isSound = std::ranges::all_of(verdicts, &SoakVerdict::isSound);
     printResult("{}\n", isSound ? "sound" : "FAULTY");
     if (const std::optional<Stop> stop = observer.wantsStop(); stop && isSound)

@@ -1,8 +1,8 @@
 // `hyalite verify --minutes`: known results, computed again and again by all devices at once.
 #pragma once
 
-#include "host/base/atomic_file.h"
 #include "host/cli/failure.h"
+#include "host/cli/requested_file.h"
 #include "host/cli/verify_subjects.h"
 
 #include <CLI/CLI.hpp>
@@ -32,7 +32,7 @@ void requireSoak(const SoakOptions &options);
 /// Runs, prints verdicts, and writes the files that there are. Throws Error of the stop's kind if a signal ends it,
 /// after all is written.
 [[nodiscard]] ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &options,
-                               std::optional<AtomicFile> &junit, std::optional<AtomicFile> &report,
-                               bool isQuiet, const std::string &commandLine);
+                               RequestedFile &junit, RequestedFile &report, bool isQuiet,
+                               const std::string &commandLine);
 
 } // namespace hyalite::core

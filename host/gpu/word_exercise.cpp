@@ -28,10 +28,6 @@ constexpr double enoughSeconds = 0.1;
 constexpr std::array<std::uint32_t, 4> masks{0u, ~0u, 0x55555555u, 0xAAAAAAAAu};
 constexpr std::array<BufferUse, 2> fillUses{BufferUse::Storage, BufferUse::Counters};
 
-std::uint32_t wordsIn(const Buffer &buffer) {
-    return static_cast<std::uint32_t>(buffer.sizeBytes() / sizeof(std::uint32_t));
-}
-
 } // namespace
 
 std::vector<std::uint32_t> knownWords(std::uint32_t count, std::uint32_t rounds) {
@@ -50,7 +46,7 @@ std::uint64_t exercisableBytes(const DeviceInfo &device) {
 }
 
 WordExercise::WordExercise(const DeviceInfo &info, WordWork work, std::uint64_t maxBytes)
-    : device_(info), work_(work), rounds_(work == WordWork::Memory ? memoryRounds : arithmeticRounds),
+    : device_(info), rounds_(work == WordWork::Memory ? memoryRounds : arithmeticRounds),
       period_(work == WordWork::Memory ? memoryPeriod : arithmeticPeriod),
       filling_(std::make_shared<Pipeline>(device_, "fillWords", embeddedKernel("fillWords"),
                                           std::span<const std::uint32_t>(), fillUses)),
@@ -111,20 +107,19 @@ WordPass WordExercise::run(std::uint64_t number, const std::function<bool()> &sh
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
         if (shouldStop && shouldStop())
             return pass;
-        fill(buffers_[i], std::min(wordsAtOnce_, wordsIn(buffers_[i])), offsetOf(i), mask);
+        fill(buffers_[i], wordsAtOnce_, offsetOf(i), mask);
     }
     pass.fillSeconds = watch.lap().seconds();
     std::uint64_t first = 0;
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
         if (shouldStop && shouldStop())
             break;
-        const std::uint32_t count = std::min(wordsAtOnce_, wordsIn(buffers_[i]));
-        const WordDifferences differences = expected_->compare(buffers_[i], count, offsetOf(i), mask);
-        pass.wordCount += count;
+        const WordDifferences differences = expected_->compare(buffers_[i], wordsAtOnce_, offsetOf(i), mask);
+        pass.wordCount += wordsAtOnce_;
         pass.wrongCount += differences.count;
         for (const layout::WrongWord &word : differences.words)
             pass.wrong.push_back({first + word.index, word.found, word.expected});
-        first += count;
+        first += wordsAtOnce_;
     }
     pass.compareSeconds = watch.lap().seconds();
     std::ranges::sort(pass.wrong, {}, &WrongMemory::word);

@@ -49,14 +49,13 @@ class WordExercise {
     void takeTenthOfSecond();
 
     Device device_;
-    WordWork work_;
     std::uint32_t rounds_;
     std::uint32_t period_;
     std::optional<ExpectedWords> expected_;
     std::shared_ptr<Pipeline> filling_;
     Buffer task_;
     std::vector<Buffer> buffers_;
-    std::uint32_t wordsAtOnce_ = 0; ///< of each buffer
+    std::uint32_t wordsAtOnce_ = 0; ///< of each buffer, which has as many or more
 };
 
 /// The words that an exercise compares with: wordOf() of 0, 1, ..., by this machine's processor.
