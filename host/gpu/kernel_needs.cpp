@@ -4,6 +4,7 @@
 #include "shaders/layout/buffers.h"
 
 #include <fmt/format.h>
+#include <vulkan/vulkan.h>
 
 #include <algorithm>
 #include <bit>
@@ -38,6 +39,8 @@ std::string lackFor(const KernelRow &kernel, const DeviceInfo &device) {
         return "offers no subgroup shuffles and sums in compute kernels";
     if (kernel.tree == KernelTree::PrimitiveBoxes && device.maxQueryBoxes == 0)
         return "offers no ray queries (VK_KHR_ray_query)";
+    if (kernel.tree == KernelTree::SkipLists && device.driverId == VK_DRIVER_ID_GOOGLE_SWIFTSHADER)
+        return "computes the loops of skip lists wrongly (shaders/README.md#drivers)";
     return {};
 }
 

@@ -7,7 +7,7 @@
 
 namespace hyalite::core::gpu {
 
-/// The limit or feature that the device lacks for a kernel; empty if none.
+/// What keeps the device from running a kernel: a limit, a feature, or a fault of its driver; empty if nothing.
 [[nodiscard]] std::string lackFor(const KernelRow &kernel, const DeviceInfo &device);
 
 /// Whether the texel buffers of a scene, as this kernel reads it, fit the device.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <vulkan/vulkan.h>
 
 #include <algorithm>
 #include <fstream>
@@ -92,6 +93,14 @@ TEST(ChooseKernel, TakesWhatSuitsTheDeviceAndTheWorkload) {
     EXPECT_EQ(chosenOn(hardware), "stack stack stack ") << "that needs the least, and is refused";
     const auto hasTwoRays = [](const KernelRow &row) { return row.raysAtOnce == 2; };
     EXPECT_EQ(chooseKernel(device(DeviceType::Cpu), Workload::Spheres, hasTwoRays).name, "skip-list-x2");
+}
+
+TEST(KernelNeeds, LeaveOutSkipListsWhereTheDriverComputesThemWrongly) {
+    DeviceInfo info = device(DeviceType::Cpu);
+    info.driverId = VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+    EXPECT_EQ(chosenOn(info), "stack stack stack ");
+    EXPECT_NE(lackFor(*findKernel("skip-list-x2"), info), "");
+    EXPECT_EQ(lackFor(*findKernel("wide"), info), "");
 }
 
 TEST(KernelNeeds, NameTheExtensionThatRayQueriesNeed) {
