@@ -24,7 +24,7 @@ add_executable(kernel_tool ${PROJECT_SOURCE_DIR}/cmake/kernel_tool.cpp ${PROJECT
                ${PROJECT_SOURCE_DIR}/host/gpu/spirv/decorate.cpp ${PROJECT_SOURCE_DIR}/host/gpu/spirv/renumber.cpp)
 target_include_directories(kernel_tool PRIVATE ${PROJECT_SOURCE_DIR})
 target_include_directories(kernel_tool SYSTEM PRIVATE ${XXHASH_INCLUDE_DIR})
-target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ZLIB::ZLIB ${XXHASH_LIBRARY})
+target_link_libraries(kernel_tool PRIVATE SPIRV-Headers::SPIRV-Headers fmt::fmt ${ZSTD_LIBRARY} ${XXHASH_LIBRARY})
 hyalite_warnings(kernel_tool)
 hyalite_compile_fast(kernel_tool)
 

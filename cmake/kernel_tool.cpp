@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include <zlib.h>
+#include <zstd.h>
 
 namespace {
 
@@ -43,15 +43,19 @@ void decorate(const std::string &from, const std::string &to) {
     write(to, std::string(reinterpret_cast<const char *>(words.data()), words.size() * sizeof(words[0])));
 }
 
-/// As a zlib stream, whose last word may have zeros behind it.
+/// As KernelWords says; zeros follow to the end of the last word.
 std::vector<std::uint32_t> pack(const std::vector<std::uint32_t> &words) {
-    const auto size = static_cast<uLong>(words.size() * sizeof(words[0]));
-    uLongf packedSize = compressBound(size);
-    std::vector<std::uint32_t> packed(packedSize / sizeof(words[0]) + 1);
-    if (compress2(reinterpret_cast<Bytef *>(packed.data()), &packedSize,
-                  reinterpret_cast<const Bytef *>(words.data()), size, Z_BEST_COMPRESSION) != Z_OK)
-        throw std::runtime_error("zlib cannot pack it");
-    packed.resize((packedSize + sizeof(words[0]) - 1) / sizeof(words[0]));
+    std::vector<std::uint8_t> planes;
+    planes.reserve(words.size() * sizeof(words[0]));
+    for (int shift = 0; shift < 32; shift += 8)
+        for (const std::uint32_t word : words)
+            planes.push_back(static_cast<std::uint8_t>(word >> shift));
+    std::vector<std::uint32_t> packed(ZSTD_compressBound(planes.size()) / sizeof(words[0]) + 1);
+    const std::size_t size = ZSTD_compress(packed.data(), packed.size() * sizeof(packed[0]), planes.data(),
+                                           planes.size(), ZSTD_maxCLevel());
+    if (ZSTD_isError(size) != 0)
+        throw std::runtime_error(std::string("zstd cannot pack it: ") + ZSTD_getErrorName(size));
+    packed.resize((size + sizeof(packed[0]) - 1) / sizeof(packed[0]));
     return packed;
 }
 

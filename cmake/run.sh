@@ -29,7 +29,7 @@ build=$root/build/release
 target=all
 needed=(g++ make cmake pkg-config libvulkan-dev spirv-headers mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
         libtinyobjloader-dev libstb-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenexr-dev libjpeg-dev libxxhash-dev
-        zlib1g-dev libpng-dev libwebp-dev libcpp-httplib-dev libmeshoptimizer-dev libdraco-dev)
+        zlib1g-dev libpng-dev libwebp-dev libcpp-httplib-dev libmeshoptimizer-dev libdraco-dev libzstd-dev)
 needed_for_python=(python3-dev pybind11-dev python3-numpy)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs "${needed_for_python[@]}"
                   python3-pytest python3-jsonschema python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick

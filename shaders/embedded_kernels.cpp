@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <zlib.h>
+#include <zstd.h>
 
 namespace hyalite::core {
 
@@ -21,12 +21,15 @@ std::span<const std::uint32_t> KernelWords::get() const {
     std::vector<std::uint32_t> &words = unpacked[packed_.data()];
     if (words.empty()) {
         words.resize(count_);
-        const auto sizeBytes = static_cast<uLong>(packed_.size_bytes());
-        auto size = static_cast<uLongf>(count_ * sizeof(words[0]));
-        if (uncompress(reinterpret_cast<Bytef *>(words.data()), &size,
-                       reinterpret_cast<const Bytef *>(packed_.data()), sizeBytes) != Z_OK ||
-            size != count_ * sizeof(words[0]))
+        std::vector<std::uint8_t> planes(count_ * sizeof(words[0]));
+        const std::size_t packedSize = ZSTD_findFrameCompressedSize(packed_.data(), packed_.size_bytes());
+        if (ZSTD_isError(packedSize) != 0 ||
+            ZSTD_decompress(planes.data(), planes.size(), packed_.data(), packedSize) != planes.size())
             throw std::logic_error("a kernel cannot be unpacked");
+        auto byte = planes.cbegin();
+        for (int shift = 0; shift < 32; shift += 8)
+            for (std::uint32_t &word : words)
+                word |= static_cast<std::uint32_t>(*byte++) << shift;
     }
     return words;
 }

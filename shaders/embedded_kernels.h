@@ -8,7 +8,8 @@
 
 namespace hyalite::core {
 
-/// A kernel's words, packed as a zlib stream: they are tens of megabytes, of which a render needs less than one.
+/// A kernel's words, packed as a frame of zstd: they are tens of megabytes, of which a render needs less than one. The
+/// lowest bytes of all words come first, then those of the next place, as these are alike.
 class KernelWords {
   public:
     template <std::size_t packedCount>
