@@ -165,12 +165,20 @@ ExitCode runSoak(const std::vector<Subject> &subjects, const SoakOptions &option
         junit.store(soakToJunit(verdicts));
     if (report)
         report.store(jsonText(soakToJson(loads, verdicts, commandLine)));
-    const bool isSound = std::ranges::all_of(verdicts, &SoakVerdict::isSound);
-    printResult("{}\n", isSound ? "sound" : "FAULTY");
-    if (const std::optional<Stop> stop = observer.wantsStop(); stop && isSound)
+    const auto hasFaults = [](const SoakVerdict &verdict) { return !verdict.faults.empty(); };
+    if (std::ranges::any_of(verdicts, hasFaults)) {
+        printResult("FAULTY\n");
+        return ExitCode::AnswerIsNo;
+    }
+    if (const std::optional<Stop> stop = observer.wantsStop())
         throw Error(stop->kind,
                     fmt::format("stopped by {} before its time; what was compared is right", stop->by));
-    return isSound ? ExitCode::Ok : ExitCode::AnswerIsNo;
+    for (const SoakVerdict &verdict : verdicts)
+        if (!verdict.isSound())
+            throw Error(ErrorKind::LimitExceeded,
+                        verdict.description + ": no load ended a pass in the time given: it needs more");
+    printResult("sound\n");
+    return ExitCode::Ok;
 }
 
 } // namespace hyalite::core

@@ -20,8 +20,8 @@ namespace {
 constexpr int replayCount = 10;
 constexpr std::uint64_t maxExplained = 10; // faults of a load: to explain takes passes
 constexpr std::size_t maxIdentified = 16;  // pixels of a film whose wrong sample is looked for
-constexpr double minHangSeconds = 20.0;    // a device may compile meanwhile
-constexpr double maxReadBackShare = 0.03;  // of the time of a load
+constexpr double minHangSeconds = 20.0;
+constexpr double maxReadBackShare = 0.03; // of the time of a load
 
 class FilmLoad : public RunningLoad {
   public:
@@ -31,42 +31,45 @@ class FilmLoad : public RunningLoad {
 
   protected:
     void run(const TimeLimit &slice) override {
-        if (!expected_)
-            begin();
+        if (!expected_ && !begin())
+            return;
         repeat([&] { return goesOn(slice) || open_.has_value(); });
         if (closed_ && !soak_.isStopped())
             conclude(*std::exchange(closed_, std::nullopt));
     }
 
-    void finish() override {
+    void tellOpenFaults() override {
         for (std::optional<SoakFault> *fault : {&open_, &closed_})
             if (*fault)
                 soak_.report(std::move(**fault));
     }
 
   private:
-    /// The film as it should be: the device's own, if its hash is the known one, else that of the CPU twin.
-    void begin() {
+    /// The film as it should be: the device's own, if its hash is the known one, else that of the CPU twin. False: the
+    /// soak ended meanwhile.
+    bool begin() {
         scene_ = prepareLoad(loads_, load_, size_);
-        const auto shouldStop = [this] { return soak_.isStopped(); };
-        const BackendResult first = unlessFailed(
-            backend_.render(scene_->packed, settings(), Film(scene_->crop), {.shouldStop = shouldStop}));
-        expectedRays_ = first.rays;
-        expected_ = first.film;
-        if (!soak_.isStopped() && filmHash(first.film) != size_.hash) {
-            BackendResult right =
-                openBackend("cpu", nobody())
-                    ->render(scene_->packed, settings(), Film(scene_->crop), {.shouldStop = shouldStop});
-            if (!soak_.isStopped() && filmHash(right.film) != size_.hash) {
-                giveUp();
-                throw Error(
-                    ErrorKind::DeviceLost,
-                    "the film has the shipped bits neither here nor on this machine's processors: they, or "
-                    "this build of the program, compute otherwise");
-            }
-            expectedRays_ = right.rays;
-            expected_ = std::move(right.film);
+        const auto mustEnd = [this] { return soak_.isStopped() || soak_.isOver(load()); };
+        const auto isRightBy = [&](Backend &backend) {
+            BackendResult result = unlessFailed(
+                backend.render(scene_->packed, settings(), Film(scene_->crop), {.shouldStop = mustEnd}));
+            expectedRays_ = result.rays;
+            expected_ = std::move(result.film);
+            return mustEnd() || filmHash(*expected_) == size_.hash;
+        };
+        Stopwatch watch;
+        const bool isRight = isRightBy(backend_);
+        firstSeconds_ = watch.lap().seconds();
+        if (!isRight && !isRightBy(*openBackend("cpu", nobody()))) {
+            giveUp();
+            throw Error(ErrorKind::DeviceLost,
+                        "the film has the shipped bits neither here nor on this machine's processors: they, "
+                        "or this build of the program, compute otherwise");
         }
+        if (!mustEnd())
+            return true;
+        expected_.reset();
+        return false;
     }
 
     [[nodiscard]] const RenderSettings &settings() const { return scene_->loaded.settings; }
@@ -106,10 +109,12 @@ class FilmLoad : public RunningLoad {
         }
     };
 
-    /// Seconds after which a pass will not end: paths of damaged data may go on for ever.
+    /// Seconds after which a pass will not end: paths of damaged data may go on for ever. A first pass may wait for the
+    /// driver's compiler, as the first render did.
     [[nodiscard]] double longestPass() const {
-        const double passes = static_cast<double>(std::max<std::uint64_t>(load().passes, 1));
-        return std::max(minHangSeconds, 50.0 * load().workSeconds / passes);
+        const double usual =
+            load().passes == 0 ? firstSeconds_ : load().workSeconds / static_cast<double>(load().passes);
+        return std::max(minHangSeconds, 50.0 * usual);
     }
 
     using RunningLoad::countPass;
@@ -269,6 +274,7 @@ class FilmLoad : public RunningLoad {
     std::optional<PreparedScene> scene_;
     std::optional<Film> expected_;
     RayCounts expectedRays_;
+    double firstSeconds_ = 0.0; ///< of the first render, and of what it compiled
     double readBackSeconds_ = 0.0;
     std::uint64_t explained_ = 0;
     std::optional<SoakFault> open_;   ///< whose replays are under way

@@ -51,6 +51,12 @@ void RunningLoad::runFor(double seconds) {
     }
 }
 
+void RunningLoad::finish() {
+    tellOpenFaults();
+    if (load().passes == 0 && failures_ == 0 && load().lack.empty())
+        load().lack = "no time was left for it";
+}
+
 bool RunningLoad::isDone() const {
     return !load().lack.empty() || failures_ >= maxDeviceFailures || soak_.isOver(load());
 }

@@ -23,8 +23,7 @@ struct Soak {
     [[nodiscard]] double seconds() const { return Span{beginNanos, hostNanos()}.seconds(); }
     [[nodiscard]] bool isStopped() const { return observer.wantsStop().has_value(); }
     [[nodiscard]] bool isOver(const SoakLoad &load) const {
-        return request.passes > 0 ? load.passes >= request.passes
-                                  : request.limit.isReached() && load.passes > 0;
+        return request.passes > 0 ? load.passes >= request.passes : request.limit.isReached();
     }
     /// Drops it where there are maxSoakFaults.
     void report(SoakFault fault);
@@ -38,16 +37,18 @@ class RunningLoad {
     RunningLoad(const RunningLoad &) = delete;
     RunningLoad &operator=(const RunningLoad &) = delete;
 
-    /// Runs passes until the slice is over, at least one. Faults of the device are told, and do not throw.
+    /// Runs passes until the slice is over, at least one where the soak is not over. Faults of the device are told, and
+    /// do not throw.
     void runFor(double seconds);
-    /// Tells what it has not told yet.
-    virtual void finish() {}
+    /// Tells what it has not told yet, and that it made no pass.
+    void finish();
     [[nodiscard]] bool isDone() const;
     [[nodiscard]] const SoakLoad &load() const { return soak_.verdict.loads[index_]; }
     [[nodiscard]] SoakLoad &load() { return soak_.verdict.loads[index_]; }
 
   protected:
     virtual void run(const TimeLimit &slice) = 0;
+    virtual void tellOpenFaults() {}
 
     /// No slice follows.
     void giveUp();

@@ -125,7 +125,7 @@ struct SoakEvents {
     std::function<void(double)> onProgress{}; ///< the finished share, in [0, 1]
 };
 
-/// Renders the loads by a backend, and exercises memory and arithmetic of its device, in turns, at least once each.
+/// Renders the loads by a backend, and exercises memory and arithmetic of its device, in turns.
 /// `device` is empty for the CPU twin. Faults do not throw. Throws as prepareLoad() does.
 [[nodiscard]] SoakVerdict soak(Backend &backend, const std::optional<gpu::DeviceInfo> &device,
                                const Loads &loads, const SoakRequest &request, Observer &observer,

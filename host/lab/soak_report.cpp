@@ -204,13 +204,13 @@ std::string describe(const SoakFault &fault) {
 }
 
 std::string summaryOf(const SoakVerdict &verdict) {
-    std::string text = verdict.isSound() ? "sound" : "FAULTY";
+    std::string text = !verdict.faults.empty() ? "FAULTY"
+                       : verdict.passes() > 0  ? "sound"
+                                               : "nothing compared";
     text += fmt::format(": {}, {} in {}", countText(verdict.loads.size(), "load"),
                         countText(verdict.passes(), "pass", "passes"), durationText(verdict.seconds));
     if (verdict.wrongPasses() > 0)
         text += fmt::format(", {} of them wrong", verdict.wrongPasses());
-    if (verdict.passes() == 0)
-        text += ": nothing was compared";
     return text + fmt::format("; {} of the time for checks", percentText(verdict.checkShare()));
 }
 

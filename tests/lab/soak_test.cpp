@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 namespace hyalite::core {
 namespace {
@@ -140,21 +141,51 @@ TEST_F(SoakTest, KnowsIntermittentFromPermanentFaults) {
     EXPECT_EQ(permanent.wrongPasses(), permanent.passes());
 }
 
-// What is read back has the sums of another sample: the one that was replaced can be told.
+// What is read back has another colour of one sample, which can be told from the sums.
 TEST_F(SoakTest, NamesTheSampleThatIsWrong) {
     const PreparedScene scene = prepareLoad(loads_, loads_.loads.front(), loads_.loads.front().small);
-    const auto change = [](Film &film, std::uint64_t pass) {
+    constexpr std::size_t index = 24 * 10 + 12; // whose samples have several colours
+    const auto sumOfFirst = [&](std::uint32_t samples) {
+        RenderSettings settings = scene.loaded.settings;
+        settings.samplesPerPixel = samples;
+        return openBackend("cpu", nobody())
+            ->render(scene.packed, settings, Film(scene.crop))
+            .film.pixels[index]
+            .sum.x;
+    };
+    constexpr std::uint32_t wrongSample = 2;
+    const float before = sumOfFirst(wrongSample + 1) - sumOfFirst(wrongSample);
+    const auto change = [&](Film &film, std::uint64_t pass) {
         if (pass != 2)
             return;
-        layout::FilmPixel &pixel = film.pixels[24 * 10 + 12]; // of several colours
-        const float value = 0.25f;
-        pixel.sum.x += value;
-        pixel.sumOfSquares.x += value * (2.0f * 0.0f + value); // of a sample that was black
+        const float added = 0.25f;
+        film.pixels[index].sum.x += added;
+        film.pixels[index].sumOfSquares.x += added * (2.0f * before + added);
     };
     const SoakVerdict verdict = run(change, 14);
     ASSERT_EQ(verdict.faults.size(), 1u);
-    for (const std::uint32_t sample : verdict.faults.front().samples)
-        EXPECT_LT(sample, 4u);
+    EXPECT_EQ(verdict.faults.front().samples, std::vector<std::uint32_t>{wrongSample});
+}
+
+// The time is over before a load has a film to compare others with.
+TEST_F(SoakTest, EndsInTimeAndTellsWhatItHasNotBegun) {
+    class Endless : public ChangedBackend {
+      public:
+        Endless() : ChangedBackend([](Film &, std::uint64_t) {}) {}
+        [[nodiscard]] BackendResult render(const PackedScene &, const RenderSettings &, Film begun,
+                                           const RenderHooks &hooks) override {
+            while (!hooks.shouldStop())
+                std::this_thread::yield();
+            return {std::move(begun), {}, {}, {}};
+        }
+    } backend;
+    SoakRequest request;
+    request.limit = TimeLimit(0.05);
+    const SoakVerdict verdict = soak(backend, std::nullopt, loads_, request, nobody(), {});
+    EXPECT_TRUE(verdict.faults.empty());
+    EXPECT_FALSE(verdict.isSound());
+    EXPECT_EQ(verdict.loads.front().lack, "no time was left for it");
+    EXPECT_TRUE(summaryOf(verdict).starts_with("nothing compared")) << summaryOf(verdict);
 }
 
 TEST_F(SoakTest, FindsRaysThatWereCountedOtherwise) {
