@@ -2,6 +2,7 @@
 
 #include "host/import/gltf/animation.h"
 #include "host/import/gltf/extensions.h"
+#include "host/import/gltf/image_based_light.h"
 #include "host/import/gltf/instancing.h"
 #include "host/import/gltf/lights.h"
 #include "host/import/gltf/materials.h"
@@ -360,7 +361,8 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
         animate(buffers, *options.timeSeconds, moved.emplace(rest));
     const std::vector<Pose> &poses = moved ? *moved : rest;
     const std::vector<glm::dmat4x3> toWorld = tree.toWorld(poses);
-    const std::vector<std::size_t> nodes = tree.nodesOfScene(document, options.scene);
+    const std::optional<JsonObject> scene = chosenScene(document, options.scene);
+    const std::vector<std::size_t> nodes = tree.nodesOfScene(document, scene);
     const std::optional<std::vector<std::size_t>> some = nodesShown(document, tree, nodes, poses.size());
     const std::vector<std::size_t> &shown = some ? *some : nodes;
 
@@ -376,6 +378,8 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
         if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
             contents.lights.push_back(*light);
     }
+    if (scene)
+        contents.environment = readImageBasedLight(buffers, near, *scene);
     readMeshes(buffers, uses.uses(), options.onReading, materials.shownAs, contents.file);
     contents.outline = outlineOf(document, tree, nodes);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);

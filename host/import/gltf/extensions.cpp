@@ -8,26 +8,19 @@
 namespace hyalite::core::gltf {
 namespace {
 
-constexpr auto known = std::to_array<std::string_view>({"EXT_mesh_gpu_instancing",
-                                                        "EXT_meshopt_compression",
-                                                        "EXT_texture_webp",
-                                                        "FB_ngon_encoding",
-                                                        "KHR_draco_mesh_compression",
-                                                        "KHR_lights_punctual",
-                                                        "KHR_materials_anisotropy",
-                                                        "KHR_materials_clearcoat",
-                                                        "KHR_materials_emissive_strength",
-                                                        "KHR_materials_ior",
-                                                        "KHR_materials_pbrSpecularGlossiness",
-                                                        "KHR_materials_sheen",
-                                                        "KHR_materials_specular",
-                                                        "KHR_materials_transmission",
-                                                        "KHR_materials_unlit",
-                                                        "KHR_materials_variants",
-                                                        "KHR_materials_volume",
-                                                        "KHR_mesh_quantization",
-                                                        "KHR_node_visibility",
-                                                        "KHR_texture_transform"});
+constexpr auto known = std::to_array<std::string_view>({
+    "EXT_lights_image_based",     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",    "EXT_texture_webp",
+    "FB_ngon_encoding",           "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",        "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",        "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_node_visibility",
+    "KHR_texture_transform",
+});
 
 bool isKnown(std::string_view name) { return std::ranges::find(known, name) != known.end(); }
 

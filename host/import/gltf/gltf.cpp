@@ -78,7 +78,9 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     loaded.outline = std::move(contents.outline);
     loaded.movesByTime = contents.movesByTime;
     loaded.restOrigin = contents.restOrigin;
-    if (scene.lights.empty())
+    if (contents.environment)
+        scene.environment.radiance = std::move(*contents.environment);
+    else if (scene.lights.empty())
         scene.environment.radiance = neutralEnvironment();
     loaded.meshReports.push_back(std::move(contents.file.report));
     return loaded;
@@ -90,7 +92,7 @@ MeshFile readGltfMeshes(const std::filesystem::path &file, const MeshOptions &op
         gltf::readContents(file, options.access, options.textures != nullptr ? *options.textures : unused,
                            {.onReading = options.onReading});
     MeshFile &meshes = contents.file;
-    if (contents.camera || !contents.lights.empty())
+    if (contents.camera || !contents.lights.empty() || contents.environment)
         meshes.report.warnings.push_back(
             fmt::format("{}: its cameras and lights are left out, as the scene file "
                         "has its own",

@@ -35,19 +35,8 @@ Trs readTrs(const Document &document, const JsonObject &object) {
     Trs trs;
     trs.translation = object.vector("translation", limits::coordinate, trs.translation);
     trs.scale = object.vector("scale", limits::coordinate, trs.scale);
-    if (const std::optional<JsonNode> rotation = object.find("rotation")) {
-        const std::vector<double> q = numbersOf(*rotation, 4);
-        trs.rotation = {q[0], q[1], q[2], q[3]};
-        const double length = glm::length(trs.rotation);
-        if (!(length > 1e-3))
-            rotation->refuse("a unit quaternion");
-        if (std::ranges::any_of(q, [](double number) { return std::abs(number) > 1.0; }) ||
-            std::abs(length - 1.0) > maxRounding)
-            document.losses().add("rotation", [&] {
-                return fmt::format("{}: {}: a rotation of length {} is normalised", document.fileName(),
-                                   rotation->path.to_string(), length);
-            });
-    }
+    if (const std::optional<JsonNode> rotation = object.find("rotation"))
+        trs.rotation = readQuaternion(document, *rotation);
     return trs;
 }
 
@@ -66,6 +55,23 @@ Pose readPose(const Document &document, const JsonObject &object) {
     return pose;
 }
 
+} // namespace
+
+glm::dvec4 readQuaternion(const Document &document, const JsonNode &node) {
+    const std::vector<double> q = numbersOf(node, 4);
+    const glm::dvec4 quaternion(q[0], q[1], q[2], q[3]);
+    const double length = glm::length(quaternion);
+    if (!(length > 1e-3))
+        node.refuse("a unit quaternion");
+    if (std::ranges::any_of(q, [](double number) { return std::abs(number) > 1.0; }) ||
+        std::abs(length - 1.0) > maxRounding)
+        document.losses().add("rotation", [&] {
+            return fmt::format("{}: {}: a rotation of length {} is normalised", document.fileName(),
+                               node.path.to_string(), length);
+        });
+    return quaternion;
+}
+
 glm::dmat3 rotationOf(const glm::dvec4 &quaternion) {
     const glm::dvec4 q = glm::normalize(quaternion);
     const double x = q.x;
@@ -76,8 +82,6 @@ glm::dmat3 rotationOf(const glm::dvec4 &quaternion) {
             2.0 * (x * y - z * w),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w),
             2.0 * (x * z + y * w),       2.0 * (y * z - x * w),       1.0 - 2.0 * (x * x + y * y)};
 }
-
-} // namespace
 
 glm::dmat4x3 Trs::toMatrix() const {
     const glm::dmat3 turned = rotationOf(rotation);
@@ -172,13 +176,20 @@ std::size_t NodeTree::depthOf(std::size_t node) const {
     return depth;
 }
 
-std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document, const std::string &choice) const {
+std::optional<JsonObject> chosenScene(const Document &document, const std::string &choice) {
     const std::optional<std::size_t> ownChoice = document.reference(document.top(), "scene", "scenes");
     if (document.count("scenes") == 0 && choice.empty())
-        return {all_.begin(), all_.end()};
+        return std::nullopt;
     const std::size_t scene =
         choice.empty() ? ownChoice.value_or(0) : chosenElement(document, "scenes", "scene", choice);
-    const JsonObject object(document.at("scenes", scene));
+    return JsonObject(document.at("scenes", scene));
+}
+
+std::vector<std::size_t> NodeTree::nodesOfScene(const Document &document,
+                                                const std::optional<JsonObject> &scene) const {
+    if (!scene)
+        return {all_.begin(), all_.end()};
+    const JsonObject &object = *scene;
     std::vector<Index> roots;
     std::vector<bool> isTaken(parents_.size(), false);
     for (const JsonNode &node : elementsOf(object, "nodes")) {

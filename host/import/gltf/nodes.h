@@ -3,6 +3,7 @@
 
 #include "host/import/gltf/document.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -17,6 +18,10 @@
 #include <vector>
 
 namespace hyalite::core::gltf {
+
+/// A rotation as x, y, z, w, of any length but 0; one that is not of unit length is told as normalised.
+[[nodiscard]] glm::dvec4 readQuaternion(const Document &document, const JsonNode &node);
+[[nodiscard]] glm::dmat3 rotationOf(const glm::dvec4 &quaternion);
 
 /// A translation of a rotation of a scale.
 struct Trs {
@@ -37,6 +42,10 @@ struct Pose {
 
 /// The poses that the file gives its nodes, in the order of /nodes.
 [[nodiscard]] std::vector<Pose> readPoses(const Document &document);
+
+/// The scene that is shown: `choice` is a name or an index; empty: the file's default one, or the first. Nothing where
+/// the file has no scenes. Throws Error{Usage} for a choice that is none.
+[[nodiscard]] std::optional<JsonObject> chosenScene(const Document &document, const std::string &choice);
 
 /// The hierarchy of nodes.
 class NodeTree {
@@ -59,11 +68,9 @@ class NodeTree {
     /// How many ancestors a node has.
     [[nodiscard]] std::size_t depthOf(std::size_t node) const;
 
-    /// The nodes of a scene, parents before their children. `choice` is the name or the index of a scene; empty: the
-    /// file's default one, or the first; all nodes where the file has no scenes. Throws Error{Usage} for a choice that
-    /// is none.
+    /// The nodes of a scene, parents before their children; all nodes without one.
     [[nodiscard]] std::vector<std::size_t> nodesOfScene(const Document &document,
-                                                        const std::string &choice) const;
+                                                        const std::optional<JsonObject> &scene) const;
 
   private:
     /// Nodes are counted by 32 bits: a file has at most 512 MiB, and a million of them should take little memory.

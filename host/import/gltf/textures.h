@@ -33,6 +33,11 @@ class TextureReader {
     /// missing, damaged or of a format that is not read. Throws Error{BadInput} for a malformed document.
     [[nodiscard]] std::optional<TextureUse> read(const JsonNode &textureInfo);
 
+    /// The index in the library of the image that `reference` names, of 8-bit levels. Nothing, and a warning, as above.
+    [[nodiscard]] std::optional<std::uint32_t> readImage(const JsonNode &reference) {
+        return image(buffers_.document().reference(reference, "images"));
+    }
+
     [[nodiscard]] bool hasAlpha(const TextureUse &use) const {
         return library_.at(use.textureIndex).hasAlpha;
     }
