@@ -69,8 +69,10 @@ void printMeasured(const Profile &profile) {
                 warm ? fmt::format("; a later frame takes {} ms", millisText(warm->millis)) : "");
     if (const std::uint64_t bytes = maxDeviceBytes(profile); bytes > 0)
         printResult("memory       {} in buffers on the device\n", sizeText(bytes));
-    if (profile.charges)
+    if (profile.charges) {
         printResult("dearest      {}\n", cleanText(dearestText(*profile.charges)));
+        printResult("shading      {}\n", shadingText(profile.charges->shading));
+    }
     for (const std::string &omission : profile.leftOut)
         printResult("left out     by the time limit: {}\n", omission);
     fmt::print("\n{}", cleanText(profileTable(profile)));

@@ -1,8 +1,11 @@
-// Work ledger: the rays of a render and their tests, by stage of the path, and by what they are charged to.
+// Work ledger: the rays of a render and their tests, by stage of the path, and by what they are charged to; and what
+// shading does.
 //
 // Each ray is charged once: a ray along the path to what it meets, a shadow ray to the surface that sends it. The
 // charges of all objects, and those of all materials, add up to all rays and tests.
 #pragma once
+
+#include "host/film/shading_counts.h"
 
 #include <algorithm>
 #include <array>
@@ -43,6 +46,7 @@ using WorkByStage = std::array<ChargedWork, pathStageNames.size()>;
 struct WorkLedger {
     std::vector<WorkByStage> objects;   ///< by number (scene_names.h); 0: nothing is met
     std::vector<WorkByStage> materials; ///< likewise
+    ShadingCounts shading{};            ///< of all of them
 
     void charge(PathStage stage, std::size_t object, std::size_t material, const ChargedWork &work) {
         charge(objects, object, stage, work);
@@ -51,6 +55,7 @@ struct WorkLedger {
     WorkLedger &operator+=(const WorkLedger &other) {
         add(objects, other.objects);
         add(materials, other.materials);
+        shading += other.shading;
         return *this;
     }
     [[nodiscard]] WorkByStage totals() const {

@@ -1,8 +1,9 @@
 // Counters for traversal: none, at no cost, or all counts of the kernel with a stack. A third one charges each ray
-// (ledger_counter.h): integrators say where rays arrive.
+// (ledger_counter.h): integrators say where rays arrive, and what they shade.
 // Twin: the counts in shaders/trace/stack.glsl.
 #pragma once
 
+#include "host/film/shading_counts.h"
 #include "host/film/work_counts.h"
 #include "shaders/layout/layout.h"
 
@@ -14,6 +15,9 @@ struct NoCounter {
     void testTriangle() {}
     template <class Scene> void arrive(const Scene &, std::uint32_t, std::uint32_t, std::uint32_t) {}
     void followShadowRay() {}
+    void lookAtLight() {}
+    void scatter(Lobe) {}
+    [[nodiscard]] ShadingCounts *readsOf() const { return nullptr; }
 };
 
 struct WorkCounter {
@@ -37,6 +41,9 @@ struct WorkCounter {
     }
     template <class Scene> void arrive(const Scene &, std::uint32_t, std::uint32_t, std::uint32_t) {}
     void followShadowRay() {}
+    void lookAtLight() {}
+    void scatter(Lobe) {}
+    [[nodiscard]] ShadingCounts *readsOf() const { return nullptr; }
 };
 
 } // namespace hyalite::core::reference

@@ -1,4 +1,4 @@
-// A counter of traversal that charges the work of each ray (host/film/work_ledger.h).
+// A counter that charges the work of each ray, and counts what shading does (host/film/work_ledger.h).
 #pragma once
 
 #include "host/film/work_ledger.h"
@@ -26,6 +26,12 @@ struct LedgerCounter {
         material_ = isMet ? numberOf(scene, layout::viewMaterial, primitive, materialIndex) : 0;
         charge(depth == 1 ? PathStage::Primary : PathStage::Further);
     }
+    void lookAtLight() { ++ledger.shading.lightSamples; }
+    /// A surface has been shaded, and a direction sampled of this lobe.
+    void scatter(Lobe lobe) { ++ledger.shading.lobes[static_cast<std::size_t>(lobe)]; }
+    /// Where a view of the scene counts what it reads. The counter stays where it is as long as the view.
+    [[nodiscard]] ShadingCounts *readsOf() { return &ledger.shading; }
+
     /// A shadow ray of the surface where the path arrived last has been followed.
     void followShadowRay() { charge(PathStage::Shadow); }
 

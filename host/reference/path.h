@@ -53,6 +53,22 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
 
     static constexpr std::uint32_t firstRouletteDepth = 4; // every path may have this many segments
 
+    /// The lobe that sampleBsdf() samples with this choice.
+    [[nodiscard]] static Lobe lobeOf(const Bsdf<Real> &bsdf, Real choice) {
+        switch (bsdf.kind) {
+        case bsdfGlass:
+            return Lobe::RoughGlass;
+        case bsdfSheen:
+            return Lobe::Sheen;
+        case bsdfOpaque:
+            if (choice < bsdf.specularProbability)
+                return Lobe::Glossy;
+            return choice < bsdf.specularProbability + bsdf.thinProbability ? Lobe::Thin : Lobe::Diffuse;
+        default:
+            return Lobe::Diffuse;
+        }
+    }
+
     [[nodiscard]] Vec2<Real> lobeChoice() const {
         const std::uint32_t number = lobePair(depth_);
         return unitFloats<Real>(sampleBits(pairKeys(pixel_, scene_.frame.seed, number), sampleIndex_));
@@ -174,6 +190,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         }
         if (!survivesRoulette())
             return std::nullopt;
+        counter_.scatter(isGlass(scene_, material) ? Lobe::ClearGlass : Lobe::Mirror);
         if (isGlass(scene_, material))
             return scatterSmoothDielectric(ray, surface, materialIndex, hit.primitive);
         weaken(mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal))));
@@ -197,6 +214,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
 
         litPoint_ = {surface.position, surface.normal,
                      isLitFromBehind<Real>(scene_, scene_.fetchMaterial(materialIndex))};
+        counter_.lookAtLight();
         const EmitterChoice<Real> choice = chooseEmitter(scene_, litPoint_, vertexBits(pairChoice).x);
         const std::uint32_t emitter = choice.index;
         const LightSample<Real> light =
@@ -228,6 +246,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         }
 
         const Vec3<Real> wi = sampleBsdf(scene_, bsdf, unitFloats<Real>(vertexBits(pairScatter)), lobe.y);
+        counter_.scatter(lobeOf(bsdf, lobe.y));
         const Vec3<Real> direction = unitVector(toWorld(bsdf.frame, wi));
         const BsdfEval<Real> scattered = evalBsdf(scene_, bsdf, wi);
         const bool isBeyond = dotProduct(surface.geometricNormal, direction) <= 0;

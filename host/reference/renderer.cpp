@@ -192,6 +192,8 @@ template <class Real, class Counter, class MakeIntegrator> class FilmRenderer {
                                                          lightOf(static_cast<std::size_t>(i)), isLast);
             (void)isToPause();
         }
+        if constexpr (std::is_same_v<Counter, LedgerCounter>)
+            integrator.counter().ledger.shading.filmSamples += addedSamples;
         const std::lock_guard lock(progressMutex_); // of this render alone: a callback may render, too
         finishedSamples_ += addedSamples;
         if (hooks_.onProgress)

@@ -1,6 +1,7 @@
 // The scene that leaf functions read.
 #pragma once
 
+#include "host/film/shading_counts.h"
 #include "host/leaves/leaves.h"
 #include "host/packing/packed_scene.h"
 
@@ -13,8 +14,11 @@ namespace hyalite::core::leaves {
 /// The scene as leaf functions read it: what kernels have as specialization constants, uniforms and buffers, by the
 /// same names. The packed scene outlives it.
 template <class Real> struct SceneView {
-    SceneView(const PackedScene &packedScene, const RenderSettings &settings)
-        : SceneView(packedScene, frameOf(packedScene, settings), samplerOf(settings)) {}
+    SceneView(const PackedScene &packedScene, const RenderSettings &settings,
+              ShadingCounts *readsOfScene = nullptr)
+        : SceneView(packedScene, frameOf(packedScene, settings), samplerOf(settings)) {
+        reads = readsOfScene;
+    }
     /// `samplerKind` is one of layout::sampler...
     explicit SceneView(const PackedScene &packedScene, uint samplerKindOfRender = layout::samplerSobol)
         : SceneView(packedScene, packedScene.frame, samplerKindOfRender) {}
@@ -36,15 +40,30 @@ template <class Real> struct SceneView {
     }
 
 #define HYALITE_FETCH(number, value, name, Record, fetch)                                                    \
-    [[nodiscard]] Record<Real> fetch(uint index) const { return packed.name[index]; }
+    [[nodiscard]] Record<Real> fetch(uint index) const {                                                     \
+        countRead<layout::number>();                                                                         \
+        return packed.name[index];                                                                           \
+    }
     HYALITE_SCENE_ARRAYS(HYALITE_FETCH)
 #undef HYALITE_FETCH
     /// Word `index` of the textures.
     [[nodiscard]] uint fetchTextureWord(uint index) const {
+        countRead<layout::bindingTextures>();
         return std::bit_cast<std::array<uint, 4>>(packed.textures[index / 4])[index % 4];
     }
 
+    template <uint binding> void countRead() const {
+        if constexpr (binding == layout::bindingTextures) {
+            if (reads != nullptr)
+                ++reads->textureReads;
+        } else if constexpr (binding == layout::bindingLightNodes) {
+            if (reads != nullptr)
+                ++reads->lightNodesRead;
+        }
+    }
+
     const PackedScene &packed;
+    ShadingCounts *reads = nullptr; ///< counts them, unless null; of one thread
     FrameRecord<Real> frame;
     uint samplerKind;
     uint scattering;

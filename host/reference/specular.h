@@ -28,8 +28,9 @@ template <class Real, class Counter> class SpecularPath {
 
   protected:
     SpecularPath(const PackedScene &scene, const RenderSettings &settings, CarriesRadiance carriesRadiance)
-        : scene_(scene, settings), carriesRadiance_(carriesRadiance == CarriesRadiance::Yes),
-          transparency_(alphaKindOf(settings)), light_(lightPlanesOf(scene, settings)) {}
+        : scene_(scene, settings, counter_.readsOf()),
+          carriesRadiance_(carriesRadiance == CarriesRadiance::Yes), transparency_(alphaKindOf(settings)),
+          light_(lightPlanesOf(scene, settings)) {}
 
     /// The primary ray of a sample, `shift` pixels away from its place.
     [[nodiscard]] Ray<Real> beginPath(const glm::uvec2 &pixel, std::uint32_t sampleIndex,
@@ -158,6 +159,7 @@ template <class Real, class Counter> class SpecularPath {
         return isSpecular(material);
     }
 
+    Counter counter_; ///< before the view, which counts there
     const SceneView<Real> scene_;
     const bool carriesRadiance_;
     glm::uvec2 pixel_{0};
@@ -170,7 +172,6 @@ template <class Real, class Counter> class SpecularPath {
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
     bool isRefracted_ = false;      ///< at the last smooth glass
     RayCounts counts_;
-    Counter counter_;
 
   private:
     std::vector<layout::TraceEvent> *events_ = nullptr;

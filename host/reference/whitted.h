@@ -19,7 +19,7 @@ namespace hyalite::core::reference {
 template <class Real, class Counter = NoCounter> class WhittedIntegrator {
   public:
     WhittedIntegrator(const PackedScene &scene, const RenderSettings &settings)
-        : scene_(scene, settings), transparency_(alphaKindOf(settings)) {}
+        : scene_(scene, settings, counter_.readsOf()), transparency_(alphaKindOf(settings)) {}
 
     /// Radiance of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn how
     /// the picture changes around it.
@@ -142,10 +142,12 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
         else if (segment.depth < scene_.frame.maxDepth && isClear)
             splitAtGlass(segment, surface, material.refractiveIndex, materialIndex, isEntering,
                          hit.primitive);
-        else if (segment.depth < scene_.frame.maxDepth)
+        else if (segment.depth < scene_.frame.maxDepth) {
+            counter_.scatter(Lobe::Mirror);
             reflect(segment, surface,
                     withoutTiny<Real>(segment.throughput * mirrorReflectanceForWhitted(scene_, material)),
                     segment.medium, hit.primitive);
+        }
     }
 
     /// Takes from the segment what its glass absorbs.
@@ -167,8 +169,10 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
             surface.normal = -surface.normal;
             surface.geometricNormal = -surface.geometricNormal;
         }
+        counter_.scatter(Lobe::Diffuse);
         const Vec3<Real> weight = segment.throughput * (Vec3<Real>(material.albedo) * inversePi<Real>);
         for (const layout::LightRecord &light : scene_.packed.lights) {
+            counter_.lookAtLight();
             const Vec3<Real> toLight = Vec3<Real>(light.position) - surface.position;
             const bool isDirectional = light.kind == layout::lightDirectional;
             const Real distance = isDirectional ? unboundedDistance<Real> : vectorLength(toLight);
@@ -224,6 +228,7 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
 
     void splitAtGlass(const Segment &segment, const Surface<Real> &surface, Real refractiveIndex,
                       std::uint32_t materialIndex, bool isEntering, std::uint32_t primitive) {
+        counter_.scatter(Lobe::ClearGlass);
         const Vec3<Real> facing = isEntering ? surface.normal : -surface.normal;
         const Refraction<Real> refraction =
             refractRay(segment.ray.direction, facing, refractiveIndex, isEntering);
@@ -243,12 +248,12 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
              isEntering ? materialIndex : layout::noMaterial});
     }
 
+    Counter counter_; ///< before the view, which counts there
     const SceneView<Real> scene_;
     std::vector<Segment> pending_;
     Vec3<Real> radiance_{Real(0)};
     Transparency<Real> transparency_;
     RayCounts counts_;
-    Counter counter_;
     std::function<bool()> isToStop_;
     bool isAbandoned_ = false;
     std::vector<layout::TraceEvent> *events_ = nullptr;

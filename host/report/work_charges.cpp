@@ -1,15 +1,21 @@
 #include "host/report/work_charges.h"
 
+#include "host/base/quantities.h"
 #include "host/report/figure_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <span>
 
 namespace hyalite::core {
 
 namespace {
+
+constexpr std::array<const char *, lobeNames.size()> lobeWords{
+    "diffuse", "glossy", "sheen", "thin glass", "rough glass", "mirrors", "clear glass"};
 
 std::vector<WorkCharge> chargesOf(const std::vector<WorkByStage> &account,
                                   const std::vector<std::string> &names) {
@@ -32,6 +38,17 @@ nlohmann::ordered_json workToJson(const WorkByStage &work) {
                                        {"boxesTested", work[stage].boxes},
                                        {"trianglesTested", work[stage].triangles}};
     return json;
+}
+
+nlohmann::ordered_json shadingToJson(const ShadingCounts &shading) {
+    nlohmann::ordered_json lobes;
+    for (std::size_t lobe = 0; lobe < lobeNames.size(); ++lobe)
+        lobes[lobeNames[lobe]] = shading.lobes[lobe];
+    return {{"lobes", lobes},
+            {"lightSamples", shading.lightSamples},
+            {"lightNodesRead", shading.lightNodesRead},
+            {"textureReads", shading.textureReads},
+            {"filmSamples", shading.filmSamples}};
 }
 
 nlohmann::ordered_json rowsToJson(std::span<const WorkCharge> charges, std::size_t maxRows) {
@@ -59,7 +76,7 @@ nlohmann::ordered_json rowsToJson(std::span<const WorkCharge> charges, std::size
 
 WorkCharges chargesOf(const WorkLedger &ledger, std::uint32_t samplesPerPixel,
                       const std::vector<std::string> &objects, const std::vector<std::string> &materials) {
-    return {samplesPerPixel, ledger.totals(), chargesOf(ledger.objects, objects),
+    return {samplesPerPixel, ledger.totals(), ledger.shading, chargesOf(ledger.objects, objects),
             chargesOf(ledger.materials, materials)};
 }
 
@@ -79,9 +96,27 @@ std::string dearestText(const WorkCharges &charges) {
                         : fmt::format("{} of the {}", text, isTested ? "box and triangle tests" : "rays");
 }
 
+std::string shadingText(const ShadingCounts &shading) {
+    const std::uint64_t shaded =
+        std::accumulate(shading.lobes.begin(), shading.lobes.end(), std::uint64_t{0});
+    std::string text;
+    for (std::size_t lobe = 0; lobe < lobeNames.size(); ++lobe)
+        if (shading.lobes[lobe] > 0)
+            text += fmt::format(
+                "{}{} {}", text.empty() ? ": " : ", ", lobeWords[lobe],
+                shareText(static_cast<double>(shading.lobes[lobe]) / static_cast<double>(shaded)));
+    text = roundedText(shaded, "surfaces") + text + "; " + roundedText(shading.lightSamples, "light samples");
+    if (shading.lightNodesRead > 0)
+        text += ", " + roundedText(shading.lightNodesRead, "nodes of the light tree");
+    if (shading.textureReads > 0)
+        text += ", " + roundedText(shading.textureReads, "texture reads");
+    return text;
+}
+
 nlohmann::ordered_json chargesToJson(const WorkCharges &charges, std::size_t maxRows) {
     return {{"samplesPerPixel", charges.samplesPerPixel},
             {"stages", workToJson(charges.totals)},
+            {"shading", shadingToJson(charges.shading)},
             {"objects", rowsToJson(charges.objects, maxRows)},
             {"materials", rowsToJson(charges.materials, maxRows)}};
 }

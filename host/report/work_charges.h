@@ -18,6 +18,7 @@ struct WorkCharge {
 struct WorkCharges {
     std::uint32_t samplesPerPixel = 0; ///< that were charged, the first ones
     WorkByStage totals{};
+    ShadingCounts shading{};
     std::vector<WorkCharge> objects; ///< those with rays; most tests first, and of equal ones most rays
     std::vector<WorkCharge> materials;
 };
@@ -29,6 +30,9 @@ struct WorkCharges {
 
 /// The three dearest objects with their shares of all tests, or of all rays where nothing is tested; for people.
 [[nodiscard]] std::string dearestText(const WorkCharges &charges);
+
+/// What was shaded, by lobes, and what it read; for people.
+[[nodiscard]] std::string shadingText(const ShadingCounts &shading);
 
 /// Of objects and of materials the first `maxRows`, and how many the others are, with the sum of theirs.
 [[nodiscard]] nlohmann::ordered_json chargesToJson(const WorkCharges &charges, std::size_t maxRows = 20);

@@ -136,7 +136,15 @@ TEST_F(ProfileCommand, ChargesTheSameRaysOnEveryDevice) {
     EXPECT_EQ(sums["boxesTested"], onCpu.at("work").at("withStack").at("boxesTested"));
     EXPECT_EQ(sums["trianglesTested"], onCpu.at("work").at("withStack").at("trianglesTested"));
     EXPECT_EQ(sums["rays"], onCpu.at("work").at("rays").at("total"));
-    EXPECT_TRUE(contains(run("profile " + line + " --device cpu").output, "\ndearest      "));
+    const nlohmann::json &shading = charges.at("shading");
+    const nlohmann::json &rays = onCpu.at("work").at("rays");
+    EXPECT_EQ(shading.at("filmSamples"), rays.at("primary"));
+    EXPECT_GE(shading.at("lightSamples"), rays.at("shadow")) << "some lights are below the surface";
+    EXPECT_GT(shading.at("lobes").at("diffuse"), 0);
+    EXPECT_EQ(shading.at("lobes").at("sheen"), 0);
+    const std::string output = run("profile " + line + " --device cpu").output;
+    EXPECT_TRUE(contains(output, "\ndearest      "));
+    EXPECT_TRUE(contains(output, "\nshading      "));
     EXPECT_FALSE(profile("sheet.json --device cpu" + smallProfiled).contains("charges"));
     EXPECT_FALSE(
         profile("sheet.json --counts --integrator ao --device cpu" + smallProfiled).contains("charges"));

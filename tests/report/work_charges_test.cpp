@@ -13,6 +13,10 @@ WorkLedger handMadeLedger() {
     ledger.charge(PathStage::Primary, 1, 1, {5, 20, 0});
     ledger.charge(PathStage::Further, 2, 1, {1, 30, 30});
     ledger.charge(PathStage::Shadow, 4, 2, {7, 5, 5});
+    ledger.shading.lobes = {30, 10, 0, 0, 0, 0, 0};
+    ledger.shading.lightSamples = 41;
+    ledger.shading.textureReads = 9000;
+    ledger.shading.filmSamples = 8;
     return ledger;
 }
 
@@ -39,6 +43,21 @@ TEST(WorkCharges, AreRaysWhereNothingIsTested) {
     ledger.charge(PathStage::Primary, 0, 0, {1, 0, 0});
     EXPECT_EQ(dearestText(chargesOf(ledger, 1, {"sphere 0"}, {"red"})), "sphere 0 75.0 % of the rays");
     EXPECT_EQ(dearestText(chargesOf({}, 1, {}, {})), "no object is met");
+}
+
+TEST(WorkCharges, TellWhatWasShaded) {
+    const ShadingCounts shading = handMadeCharges().shading;
+    EXPECT_EQ(shadingText(shading),
+              "40 surfaces: diffuse 75.0 %, glossy 25.0 %; 41 light samples, 9.00 k texture reads");
+    EXPECT_EQ(shadingText({}), "0 surfaces; 0 light samples");
+    ShadingCounts twice = shading;
+    twice += shading;
+    const nlohmann::json json = chargesToJson(handMadeCharges()).at("shading");
+    EXPECT_EQ(json.at("lobes").at("diffuse"), 30);
+    EXPECT_EQ(json.at("lobes").size(), lobeNames.size());
+    EXPECT_EQ(twice.textureReads, 2 * json.at("textureReads").get<std::uint64_t>());
+    EXPECT_EQ(twice.lobes[0], 60u);
+    EXPECT_EQ(json.at("filmSamples"), 8);
 }
 
 TEST(WorkCharges, AsJsonSumUpWhatIsLeftOut) {
