@@ -33,7 +33,7 @@ const isLinear = report.encoding === 'linear';
 const roles = page.pictures.map(picture => picture.role);
 
 const state = { view: 'first', curve: isLinear ? 'gamma' : 'display', stops: 0, times: 8, wipe: 0.5,
-                x: width / 2, y: height / 2, zoom: 1, pixel: null };
+                x: width / 2, y: height / 2, zoom: 1, pixel: null, swapsByHover: false, isHovered: false };
 
 const views = {
   first: { name: roles[0], levels: () => toneMap(first.values, first.channels, state.curve, state.stops) },
@@ -54,6 +54,9 @@ function layerOf(view) {
   layer.canvas.getContext('2d').putImageData(new ImageData(layer.levels(), width, height), 0, 0);
   return layer.canvas;
 }
+
+const otherOf = view => ({ first: 'second', second: 'first' })[view] ?? view;
+const shownView = () => state.swapsByHover && state.isHovered ? otherOf(state.view) : state.view;
 
 // ---- The canvas: `zoom` is its pixels for each of the picture; (x, y) of the picture is in its middle.
 
@@ -83,7 +86,7 @@ function draw() {
     context.arc(edge, canvas.height / 2, 9 * devicePixelRatio, 0, 2 * Math.PI);
     context.fill();
   } else {
-    show(state.view);
+    show(shownView());
   }
   if (state.pixel) {
     const side = Math.max(state.zoom, 6 * devicePixelRatio);
@@ -206,6 +209,12 @@ function setCurve(curve) {
   byId('curve').value = curve;
   drawSoon();
 }
+function setHover(swaps) {
+  state.swapsByHover = swaps;
+  byId('hover').checked = swaps;
+  if (swaps && otherOf(state.view) === state.view) setView('first');
+  drawSoon();
+}
 const swap = () => setView(state.view === 'first' ? 'second' : 'first');
 
 const curves = isLinear ? ['gamma', 'srgb', 'aces', 'agx'] : ['display'];
@@ -213,6 +222,7 @@ byId('curve').append(...curves.map(curve => element('option', { value: curve }, 
 byId('curve').disabled = !isLinear;
 byId('curve').addEventListener('change', event => setCurve(event.target.value));
 byId('exposure').addEventListener('input', event => setStops(Number(event.target.value)));
+byId('hover').addEventListener('change', event => setHover(event.target.checked));
 byId('gain').addEventListener('input', event => {
   setTimes(Number(event.target.value));
   setView('difference');
@@ -249,7 +259,7 @@ const keys = {
   ',': () => setTimes(Math.log2(state.times) - 1), '.': () => setTimes(Math.log2(state.times) + 1),
   t: () => setCurve(curves[(curves.indexOf(state.curve) + 1) % curves.length]),
   '+': clicks.in, '=': clicks.in, '-': clicks.out, '0': fit, 'z': clicks.whole,
-  n: clicks.next, p: clicks.previous, l: clicks.largest,
+  n: clicks.next, p: clicks.previous, l: clicks.largest, h: () => setHover(!state.swapsByHover),
 };
 Object.keys(views).forEach((view, index) => { keys[index + 1] = () => setView(view); });
 const moves = { ArrowLeft: move(-1, 0), ArrowRight: move(1, 0), ArrowUp: move(0, -1), ArrowDown: move(0, 1) };
@@ -264,6 +274,7 @@ document.addEventListener('keydown', event => {
 });
 byId('keys').append(...[
   ['1 to 6', 'what is shown'], ['Space', 'one picture, then the other'],
+  ['h', 'swap them while the pointer is over the picture'],
   ['+ − 0 z', 'zoom: in, out, all, pixel by pixel'],
   ['Arrows', 'move the pixel that is read; with Shift by 10'], ['n p l', 'next, previous, largest difference'],
   ['[ ]', 'exposure'], [', .', 'factor of the difference'], ['t', 'tone curve'],
@@ -284,6 +295,11 @@ function readAt({ x, y }) {
   if (column >= 0 && column < width && line >= 0 && line < height) read(column, line);
 }
 
+for (const [name, isHovered] of [['pointerenter', true], ['pointerleave', false]])
+  canvas.addEventListener(name, () => {
+    state.isHovered = isHovered;
+    drawSoon();
+  });
 canvas.addEventListener('pointerdown', event => {
   const place = placeOn(event);
   canvas.setPointerCapture(event.pointerId);
