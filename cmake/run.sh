@@ -34,7 +34,7 @@ needed_for_python=(python3-dev pybind11-dev python3-numpy)
 needed_for_tests=(libgtest-dev libembree-dev vulkan-validationlayers assimp-utils nodejs "${needed_for_python[@]}"
                   python3-pytest python3-jsonschema python3-matplotlib python3-nbclient python3-ipykernel openexr imagemagick
                   python3-openimageio)
-needed_for_archive=(dpkg-dev binutils xz-utils)
+needed_for_archive=(dpkg-dev binutils xz-utils webp)
 needed_for_archive_with_lavapipe=(patchelf)
 declare -A needed_for_farm=([parallel]="parallel" [mpi]="libopenmpi-dev openmpi-bin procps" [slurm]="munge procps slurm-client slurmctld slurmd"
                            [image]="buildah mmdebstrap" [kubernetes]="nodejs npm")

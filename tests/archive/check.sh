@@ -38,6 +38,11 @@ for file in bin/hyalite lib/hyalite/libvulkan.so.1 share/hyalite/scenes/cat.obj 
             share/doc/hyalite/licences/libvulkan1 share/doc/hyalite/licences/libopenexr; do
     [ -s "$root/$file" ] || fail "has no $file"
 done
+# Pages show their pictures.
+(cd "$root/share/doc/hyalite" && grep -rno --include='*.md' '!\[[^]]*\]([^)]*)' . | while IFS=: read -r page line picture; do
+    picture=${picture#*](}
+    [ -s "$(dirname "$page")/${picture%)}" ] || fail "$page:$line shows ${picture%)}, which is not there"
+done)
 [ ! -e "$root/include" ] && [ ! -e "$root/lib/cmake" ] || fail "has files for developers"
 # Each package has its licence.
 while read -r package _; do
