@@ -94,16 +94,16 @@ gpu::RayKernel kernelOf(const char *name) {
 }
 
 void expectSameHits(const char *name, const PackedScene &scene) {
-    const gpu::RayKernel stack = kernelOf("stack");
+    const gpu::RayKernel skipList = kernelOf("skip-list");
     const gpu::RayKernel query = kernelOf("ray-query");
-    gpu::RayScene ours(testDevice(), scene, stack.row);
+    gpu::RayScene ours(testDevice(), scene, skipList.row);
     gpu::RayScene theirs(testDevice(), scene, query.row);
     std::mt19937 random(5);
     std::size_t hitCount = 0;
     for (std::size_t traced = 0; traced < rayCount(); traced += raysAtOnce) {
         const std::vector<layout::RayRecord> rays = drawRays(scene, random);
         for (const gpu::RayGoal goal : {gpu::RayGoal::NearestHit, gpu::RayGoal::AnyHit}) {
-            gpu::RayTracer wanted(ours, stack, goal, rays);
+            gpu::RayTracer wanted(ours, skipList, goal, rays);
             gpu::RayTracer found(theirs, query, goal, rays);
             wanted.run();
             found.run();
@@ -124,7 +124,7 @@ void expectSameHits(const char *name, const PackedScene &scene) {
     EXPECT_GT(hitCount, rayCount() / 2) << name;
 }
 
-TEST(RayQuery, FindsTheHitsOfTheStack) {
+TEST(RayQuery, FindsTheHitsOfSkipLists) {
     if (const std::string lack = gpu::lackFor(*gpu::findKernel("ray-query"), testDevice()); !lack.empty())
         GTEST_SKIP() << testDevice().name << " " << lack;
     expectSameHits("at the origin", pack(soup(1.0f, glm::vec3(0.0f)), TreeKind::Sah, 4));
