@@ -49,6 +49,12 @@ inline constexpr Interval viewCount{1, 64};      ///< around a scene
 inline constexpr Interval partCount{1, 65536};   ///< of a picture
 inline constexpr Interval inspectedRays{1, 1e6}; ///< each is tested against all triangles
 
+inline constexpr Interval profileAngle{0.0, 180.0};    ///< gamma, in degrees
+inline constexpr std::size_t profileAngleCount = 8192; ///< in a file, of gamma and of C
+inline constexpr std::size_t profileValueCount = std::size_t{1}
+                                                 << 22; ///< of all profiles: 64 MiB on the device
+inline constexpr Interval candela{0.0, 1e30};
+
 inline constexpr std::size_t lightCount = std::size_t{1} << 27;
 inline constexpr std::size_t lightGroupCount = layout::maxLightGroups;
 inline constexpr std::size_t mediumCount = layout::maxMedia; ///< dielectrics, for the path integrator
