@@ -27,5 +27,6 @@
 #include "shaders/lights/spot.glsl"
 #include "shaders/lights/environment.glsl"
 #include "shaders/lights/light_tree.glsl"
+#include "shaders/lights/profile.glsl"
 #include "shaders/lights/emitters.glsl"
 #include "shaders/post/denoiser.glsl"

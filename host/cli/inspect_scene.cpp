@@ -76,8 +76,17 @@ void printLight(const SceneSummary &summary, const Light &light) {
                     pointText(summary, light.position), vectorText(light.direction), light.angleDegrees,
                     colourText(light.power));
     else
-        printResult("light        {} at {}, power {}\n", kind, pointText(summary, light.position),
-                    colourText(light.power));
+        printResult("light        {} at {}{}, power {}\n", kind, pointText(summary, light.position),
+                    light.profile ? " along " + vectorText(light.direction) : "", colourText(light.power));
+    if (light.profile)
+        printResult("             profile {}, C = 0 along {}\n",
+                    cleanText(summary.profiles[*light.profile].file), vectorText(light.c0));
+}
+
+void printProfile(const ProfileSummary &profile) {
+    printResult("profile      {}: {} angles gamma, {} C, {:.6g} cd at most, {:.6g} lm\n",
+                cleanText(profile.file), profile.gammaCount, profile.planeCount, profile.candela,
+                profile.lumens);
 }
 
 std::string useText(const MaterialSummary &material) {
@@ -219,6 +228,7 @@ void printSummary(const SceneSummary &summary) {
     printCamera(summary);
     printRows(summary.lights.size(), "lights",
               [&](std::size_t i) { printLight(summary, summary.lights[i]); });
+    printRows(summary.profiles.size(), "profiles", [&](std::size_t i) { printProfile(summary.profiles[i]); });
     printEmitters(summary.materials);
     if (const std::optional<EnvironmentSummary> &sky = summary.environment)
         printResult("environment  {}x{} pixels, scale {:.6g}, turned {:.6g} degrees\n", sky->width,

@@ -101,6 +101,8 @@ LoadedScene finished(LoadedScene loaded) {
             loaded.inputFiles.push_back(path.string());
     for (const Texture &texture : loaded.scene.textures)
         loaded.inputFiles.push_back(texture.name);
+    for (const LightProfile &profile : loaded.scene.profiles)
+        loaded.inputFiles.push_back(profile.name);
     moveNear(loaded.scene, loaded.cameraPath, loaded.restOrigin);
     validateScene(loaded.scene, loaded.file.string());
     validateSettings(loaded.settings, loaded.scene, loaded.file.string());

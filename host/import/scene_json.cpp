@@ -4,6 +4,7 @@
 #include "host/base/json_reader.h"
 #include "host/import/environment_file.h"
 #include "host/import/file_access.h"
+#include "host/import/profile_library.h"
 #include "host/import/scene_objects.h"
 #include "host/scene/light_groups.h"
 #include "host/scene/light_sources.h"
@@ -103,7 +104,31 @@ std::string readLightGroup(const JsonObject &object) {
     return name;
 }
 
-Light readLight(const JsonNode &node) {
+/// The files and the library for profiles of lights.
+struct ProfileSource {
+    const FileAccess &access;
+    ProfileLibrary &library;
+    std::vector<std::string> &warnings;
+};
+
+/// The profile of a light, and how it is turned.
+void readProfile(const JsonObject &object, const ProfileSource &source, Light &light) {
+    const std::optional<JsonNode> file = object.find("profile");
+    if (!file) {
+        for (const std::string_view key : {"c0"sv, "direction"sv})
+            if (key == "c0" || light.kind == LightKind::Point)
+                if (const std::optional<JsonNode> node = object.find(key))
+                    node->fail("found without \"profile\"; allowed: beside one");
+        return;
+    }
+    light.direction = readDirection(object, "direction", light.direction);
+    light.c0 = readDirection(object, "c0", defaultC0(light.direction));
+    if (isParallel(light.direction, light.c0))
+        object.at("c0").fail("is the light's own direction; allowed: any other one");
+    light.profile = source.library.load(source.access.resolve(*file), source.warnings);
+}
+
+Light readLight(const JsonNode &node, const ProfileSource &source) {
     const JsonObject object(node);
     if (const std::optional<JsonNode> type = object.find("type"); type && *type->value == "area")
         type->refuse("\"point\", \"spot\", \"directional\"; a light with a size is a sphere, shape or mesh "
@@ -116,6 +141,7 @@ Light readLight(const JsonNode &node) {
         object.allowOnly(scene_keys::pointLight);
         light.position = object.vector("position", limits::coordinate);
         light.power = object.colour("power", limits::power);
+        readProfile(object, source, light);
         break;
     case LightKind::Spot:
         object.allowOnly(scene_keys::spotLight);
@@ -125,6 +151,7 @@ Light readLight(const JsonNode &node) {
         light.angleDegrees = object.number("angle", limits::spotAngle, light.angleDegrees);
         light.blend = object.number("blend", limits::fraction, light.blend);
         light.fade = object.choice("fade", spotFadeNames, light.fade);
+        readProfile(object, source, light);
         break;
     case LightKind::Directional:
         object.allowOnly(scene_keys::directionalLight);
@@ -359,6 +386,7 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
     });
     const FileAccess access(file, options.allowedPaths, arrays);
     TextureLibrary textures;
+    ProfileLibrary profiles;
     faults.collect([&] {
         if (const std::optional<JsonObject> environment = top.object("environment", scene_keys::environment))
             scene.environment = readEnvironment(*environment, access, loaded);
@@ -371,7 +399,9 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
     });
     faults.collect([&] {
         for (const JsonNode &light : top.elements("lights", limits::lightCount))
-            faults.collect([&] { scene.lights.push_back(readLight(light)); });
+            faults.collect([&] {
+                scene.lights.push_back(readLight(light, {access, profiles, loaded.warnings}));
+            });
     });
     if (const std::optional<JsonNode> materials = top.find("materials")) {
         faults.collect([&] { readMaterials(JsonObject(*materials), {access, textures}, faults, scene); });
@@ -381,6 +411,7 @@ LoadedScene loadDocument(const nlohmann::json &document, const std::filesystem::
     readObjects(top, access, textures, options.events.onReading, faults, loaded);
     faults.throwThem();
     scene.textures = textures.give();
+    scene.profiles = profiles.give();
     if (!hasIntegrator) {
         const LightSources sources = lightSourcesOf(scene);
         loaded.settings.integrator =

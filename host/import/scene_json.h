@@ -41,10 +41,10 @@ inline constexpr auto cameraPath = std::to_array<std::string_view>({"interpolati
 inline constexpr auto cameraKey =
     std::to_array<std::string_view>({"frame", "position", "target", "direction", "up", "horizontalFov",
                                      "aperture", "focusDistance", "viewWidth"});
-inline constexpr auto pointLight =
-    std::to_array<std::string_view>({"type", "position", "power", "lightGroup"});
+inline constexpr auto pointLight = std::to_array<std::string_view>(
+    {"type", "position", "power", "profile", "direction", "c0", "lightGroup"});
 inline constexpr auto spotLight = std::to_array<std::string_view>(
-    {"type", "position", "power", "direction", "angle", "blend", "fade", "lightGroup"});
+    {"type", "position", "power", "direction", "angle", "blend", "fade", "profile", "c0", "lightGroup"});
 inline constexpr auto directionalLight =
     std::to_array<std::string_view>({"type", "direction", "irradiance", "lightGroup"});
 inline constexpr auto texture = std::to_array<std::string_view>({"file", "scale", "offset"});

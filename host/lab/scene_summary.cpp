@@ -35,6 +35,9 @@ void addLight(const Scene &scene, SceneSummary &summary) {
     summary.lights = scene.lights;
     for (Light &light : summary.lights)
         light.position = ofFile(scene, light.position);
+    for (const LightProfile &profile : scene.profiles)
+        summary.profiles.push_back(
+            {profile.name, profile.gammas.size(), profile.planes.size(), profile.candela, lumensOf(profile)});
     summary.background = scene.background;
     if (const Image &sky = scene.environment.radiance; !sky.pixels().empty())
         summary.environment = EnvironmentSummary{sky.width(), sky.height(), scene.environment.scale,

@@ -36,6 +36,14 @@ struct EnvironmentSummary {
     double rotateDegrees = 0.0;
 };
 
+struct ProfileSummary {
+    std::string file;
+    std::size_t gammaCount = 0; ///< angles
+    std::size_t planeCount = 0; ///< all around
+    double candela = 0.0;       ///< the greatest
+    double lumens = 0.0;
+};
+
 struct NodeSummary {
     SceneNode node;
     std::optional<Bounds> bounds; ///< of all triangles at the node and below it
@@ -57,6 +65,7 @@ struct SceneSummary {
     glm::dvec3 origin{0.0};       ///< what coordinates are read relative to
     Camera camera;
     std::vector<Light> lights;
+    std::vector<ProfileSummary> profiles; ///< of lights
     std::optional<EnvironmentSummary> environment;
     glm::vec3 background{0.0f}; ///< without an environment
     std::vector<MaterialSummary> materials;

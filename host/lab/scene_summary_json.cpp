@@ -19,6 +19,14 @@ OrderedJson boundsToJson(const std::optional<Bounds> &bounds) {
     return {{"low", vectorToJson(bounds->low)}, {"high", vectorToJson(bounds->high)}};
 }
 
+OrderedJson profileToJson(const ProfileSummary &profile) {
+    return {{"file", profile.file},
+            {"gammas", profile.gammaCount},
+            {"planes", profile.planeCount},
+            {"candela", profile.candela},
+            {"lumens", profile.lumens}};
+}
+
 OrderedJson materialToJson(const MaterialSummary &material) {
     OrderedJson json{{"name", material.name},
                      {"type", nameIn(materialNames, material.kind)},
@@ -172,6 +180,7 @@ OrderedJson summaryToJson(const SceneSummary &summary, const std::string &comman
         json["origin"] = vectorToJson(summary.origin);
     json["camera"] = cameraToJson(summary.camera);
     json["lights"] = listOf(summary.lights, lightToJson);
+    json["profiles"] = listOf(summary.profiles, profileToJson);
     json["environment"] = nullptr;
     if (const std::optional<EnvironmentSummary> &sky = summary.environment)
         json["environment"] = {{"width", sky->width},
@@ -220,13 +229,17 @@ OrderedJson lightToJson(const Light &light) {
     OrderedJson json{{"type", nameIn(lightNames, light.kind)}};
     if (light.kind != LightKind::Directional)
         json["position"] = vectorToJson(light.position);
-    if (light.kind != LightKind::Point)
+    if (light.kind != LightKind::Point || light.profile)
         json["direction"] = vectorToJson(light.direction);
     json[light.kind == LightKind::Directional ? "irradiance" : "power"] = vectorToJson(light.power);
     if (light.kind == LightKind::Spot) {
         json["angle"] = light.angleDegrees;
         json["blend"] = light.blend;
         json["fade"] = nameIn(spotFadeNames, light.fade);
+    }
+    if (light.profile) {
+        json["profile"] = *light.profile;
+        json["c0"] = vectorToJson(light.c0);
     }
     return json;
 }

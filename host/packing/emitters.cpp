@@ -1,6 +1,7 @@
 #include "host/packing/emitters.h"
 
 #include "host/base/error.h"
+#include "host/packing/light_profiles.h"
 #include "host/packing/light_tree.h"
 #include "host/packing/texture_rows.h"
 #include "host/scene/light_groups.h"
@@ -51,6 +52,7 @@ struct Candidate {
     double power; ///< 0 for infinitely distant emitters
     double area;  ///< 0 for emitters without area
     bool isInfinite;
+    ProfiledLight profiled{}; ///< of a light with a profile
 };
 
 layout::EmitterRecord lightEmitter(const layout::LightRecord &light, std::uint32_t group) {
@@ -61,13 +63,15 @@ layout::EmitterRecord lightEmitter(const layout::LightRecord &light, std::uint32
     emitter.emission = light.intensity;
     emitter.axis = light.axis;
     emitter.cosineOuter = light.cosineOuter;
-    if (light.kind == layout::lightSpot)
+    if (light.kind == layout::lightSpot || lightKindOf(light) == layout::lightProfiled)
         emitter.pdf = light.falloffScale;
+    if (lightKindOf(light) == layout::lightProfiled)
+        emitter.record = profileOf(light);
     return emitter;
 }
 
-/// Fraction of all directions inside the cone of a spot.
-double coneShare(const layout::EmitterRecord &spot) { return 0.5 * (1.0 - double{spot.cosineOuter}); }
+/// Fraction of all directions inside a cone.
+double coneShare(float cosine) { return 0.5 * (1.0 - double{cosine}); }
 
 /// Indices of the records of emitting triangles, in the order of the input. Instances do not emit.
 std::vector<std::uint32_t> emittingTriangles(const PackedScene &packed,
@@ -162,6 +166,15 @@ TreeLight treeLight(const Candidate &candidate, const PackedScene &packed, doubl
         light.cosineNormals = 1.0f;
         light.cosineEmission = emitter.cosineOuter;
     }
+    if (emitter.kind == layout::emitterProfiled) {
+        const ProfiledLight &profiled = candidate.profiled;
+        intensity *= profiled.meanShare / std::max(coneShare(profiled.cosine), 1e-6);
+        if (profiled.cosine > 0.0f) { // else it counts as one that shines everywhere
+            light.axis = profiled.axis;
+            light.cosineNormals = 1.0f;
+            light.cosineEmission = profiled.cosine;
+        }
+    }
     return light;
 }
 
@@ -247,9 +260,16 @@ bool isChosenByTree(LightChoice choice, const std::vector<Candidate> &found, con
 } // namespace
 
 std::uint32_t emitterKindOf(const layout::LightRecord &light) {
-    return light.kind == layout::lightSpot          ? layout::emitterSpot
-           : light.kind == layout::lightDirectional ? layout::emitterDirectional
-                                                    : layout::emitterPoint;
+    switch (lightKindOf(light)) {
+    case layout::lightSpot:
+        return layout::emitterSpot;
+    case layout::lightDirectional:
+        return layout::emitterDirectional;
+    case layout::lightProfiled:
+        return layout::emitterProfiled;
+    default:
+        return layout::emitterPoint;
+    }
 }
 
 void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, PackedScene &packed) {
@@ -265,8 +285,13 @@ void packEmitters(const Scene &scene, bool isLitAround, LightChoice choice, Pack
         const double power = mean(scene.lights[i].power);
         const layout::EmitterRecord emitter =
             lightEmitter(packed.lights[i], numberOfGroup(packed.lightGroups, scene.lights[i].lightGroup));
-        if (emitter.kind != layout::emitterDirectional)
-            add(emitter, power * (emitter.kind == layout::emitterSpot ? coneShare(emitter) : 1.0), 0.0);
+        if (emitter.kind == layout::emitterProfiled) {
+            const ProfiledLight profiled = profiledLight(scene, scene.lights[i]);
+            if (power * profiled.meanShare > 0.0)
+                candidates.push_back({emitter, power * profiled.meanShare, 0.0, false, profiled});
+        } else if (emitter.kind != layout::emitterDirectional)
+            add(emitter, power * (emitter.kind == layout::emitterSpot ? coneShare(emitter.cosineOuter) : 1.0),
+                0.0);
         else if (power > 0.0)
             candidates.push_back({emitter, 0.0, 0.0, true});
     }

@@ -5,6 +5,7 @@
 #include "host/leaves/leaves.h"
 #include "host/packing/emitters.h"
 #include "host/packing/environment.h"
+#include "host/packing/light_profiles.h"
 #include "host/packing/listed_triangles.h"
 #include "host/packing/media_at.h"
 #include "host/packing/microfacet_energy.h"
@@ -84,16 +85,23 @@ std::uint32_t cameraOf(const Camera &camera) {
     return camera.aperture > 0.0 ? layout::cameraLens : layout::cameraPinhole;
 }
 
-layout::LightRecord packLight(const Light &light) {
+/// `profile` is the light's index among those with one.
+layout::LightRecord packLight(const Light &light, std::uint32_t profile) {
     layout::LightRecord record{};
     record.position = glm::vec3(light.position);
-    record.kind = static_cast<std::uint32_t>(light.kind);
+    record.kind = light.profile ? layout::lightProfiled | profile << layout::lightKindBits
+                                : static_cast<std::uint32_t>(light.kind);
     record.intensity = glm::vec3(light.power / (4.0 * std::numbers::pi));
-    if (light.kind == LightKind::Point)
+    if (light.kind == LightKind::Point && !light.profile)
         return record;
     record.axis = glm::vec3(glm::normalize(light.direction));
     if (light.kind == LightKind::Directional) {
         record.intensity = glm::vec3(light.power);
+        return record;
+    }
+    if (light.kind == LightKind::Point) {
+        record.cosineOuter = layout::cosineOfNoCone;
+        record.falloffScale = layout::scaleOfNoCone;
         return record;
     }
     const double outer = std::cos(glm::radians(light.angleDegrees));
@@ -236,8 +244,10 @@ std::uint64_t nextSerial() {
 }
 
 void addLights(const Scene &scene, PackedScene &packed) {
+    std::uint32_t profileCount = 0;
     for (const Light &light : scene.lights) {
-        packed.lights.push_back(packLight(light));
+        packed.lights.push_back(packLight(light, profileCount));
+        profileCount += light.profile ? 1u : 0u;
         packed.lighting |= 1u << emitterKindOf(packed.lights.back());
     }
 }
@@ -339,7 +349,7 @@ std::uint64_t PackedScene::contentHash(std::uint64_t ofArrays) const {
     layout::FrameRecord seen = frame;
     seen.environmentTexels = 0; // this and the next depend on how emitters are chosen
     seen.environmentProbability = 0.0f;
-    seen.filterTexels = seen.environmentGroup = 0;
+    seen.filterTexels = seen.environmentGroup = seen.lightProfiles = 0;
     seen.triangleCount = 0; // this and the next depend on which instances became meshes
     seen.boundsLower = seen.boundsUpper = glm::vec3(0.0f);
     const std::uint64_t hash = hashBytes(std::as_bytes(std::span(&seen, 1)), ofArrays);
@@ -378,6 +388,8 @@ std::uint64_t PackedScene::arraysHash() const {
             hashBytes(std::as_bytes(std::span(lookups).subspan(
                           frame.environmentTexels, (frame.environmentWidth + 1) * frame.environmentHeight)),
                       hash);
+    if ((lighting & layout::lightsByProfiles) != 0)
+        hash = hashBytes(std::as_bytes(std::span(lookups).subspan(frame.lightProfiles)), hash);
     hash = hashBytes(std::as_bytes(std::span(seenTextures)), hash);
     return hashBytes(std::as_bytes(texels), hash);
 }
@@ -461,6 +473,7 @@ PackedScene packScene(const Scene &scene, const Bvh &bvh, const PackOptions &opt
     packEnergies(scene, packed);
     const bool isLitAround = !scene.environment.radiance.pixels().empty() && packEnvironment(scene, packed);
     packFilter(packed);
+    packProfiles(scene, packed);
     packLightGroups(scene, packed);
     packEmitters(scene, isLitAround, options.lightChoice, packed);
     const bool isClosed = !isLitAround && scene.background == glm::vec3(0.0f);
@@ -490,6 +503,7 @@ void packLights(const Scene &scene, LightChoice choice, PackedScene &packed) {
     const bool isLitAround = packed.lighting != 0;
     addLights(scene, packed);
     packed.frame.lightCount = static_cast<std::uint32_t>(packed.lights.size());
+    packProfiles(scene, packed);
     packLightGroups(scene, packed);
     packEmitters(scene, isLitAround, choice, packed);
 }

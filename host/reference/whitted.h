@@ -207,6 +207,11 @@ template <class Real, class Counter = NoCounter> class WhittedIntegrator {
                 irradiance *=
                     spotFalloff(direction, Vec3<Real>(light.axis), static_cast<Real>(light.cosineOuter),
                                 static_cast<Real>(light.falloffScale));
+            if (lightKindOf(light) == layout::lightProfiled)
+                irradiance *=
+                    spotFalloff(direction, Vec3<Real>(light.axis), static_cast<Real>(light.cosineOuter),
+                                static_cast<Real>(light.falloffScale)) *
+                    profileShare(scene_, profileOf(light), direction, Vec3<Real>(light.axis));
             Vec3<Real> reflected = weight * irradiance;
             if (shadow.isDimmed)
                 reflected *= static_cast<Real>(scene_.frame.shadowThroughGlass);

@@ -6,6 +6,7 @@
 
 #include "host/image/image.h"
 #include "host/image/texture.h"
+#include "host/scene/light_profile.h"
 #include "host/scene/material.h"
 #include "shaders/layout/layout.h"
 
@@ -51,11 +52,18 @@ struct Light {
     /// irradiance of a surface that faces it.
     glm::dvec3 power{0.0};
     LightKind kind = LightKind::Point;
-    glm::dvec3 direction{0.0, -1.0, 0.0}; ///< Spot, Directional: in which light leaves; any length but zero
-    double angleDegrees = 30.0;           ///< Spot: from its axis to the dark; in (0, 180]
-    double blend = 0.2;                   ///< Spot: share of the angle in which it fades, from 0 to 1
-    SpotFade fade = SpotFade::Smooth;     ///< Spot
-    std::string lightGroup{};             ///< as Material::lightGroup
+    glm::dvec3 direction{
+        0.0, -1.0,
+        0.0}; ///< Spot, Directional, and with a profile: in which light leaves; any length but zero
+    double angleDegrees = 30.0;       ///< Spot: from its axis to the dark; in (0, 180]
+    double blend = 0.2;               ///< Spot: share of the angle in which it fades, from 0 to 1
+    SpotFade fade = SpotFade::Smooth; ///< Spot
+    std::string lightGroup{};         ///< as Material::lightGroup
+    /// Point, Spot: index in Scene::profiles. The radiant intensity above is then that of its greatest share; a point
+    /// light has a direction, too.
+    std::optional<std::uint32_t> profile{};
+    glm::dvec3 c0{1.0, 0.0,
+                  0.0}; ///< with a profile: where C is 0; any length but zero, not parallel to `direction`
 };
 
 /// Light from all around: an image by longitude and latitude, whose middle is -z, whose top row is +y.
@@ -170,6 +178,7 @@ struct Scene {
     std::vector<TriangleMesh> prototypes; ///< meshes in a space of their own, seen only as instances
     std::vector<Instance> instances;      ///< in the order of the input
     std::vector<SceneNode> nodes{};       ///< parents before their children
+    std::vector<LightProfile> profiles{};
 };
 
 /// Triangles of all meshes together, without instances.

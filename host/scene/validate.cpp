@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -319,6 +320,43 @@ void checkEnvironment(const Environment &environment, const Checked &checked) {
             checked.within(limits::radiance, scaled, fmt::format("radiance of pixel {}", i));
 }
 
+void checkProfile(const LightProfile &profile, const Checked &checked) {
+    const auto ascend = [](const std::vector<double> &angles) {
+        return std::ranges::adjacent_find(angles, std::ranges::greater_equal()) == angles.end();
+    };
+    for (const double gamma : profile.gammas)
+        checked.within(limits::profileAngle, gamma, "angle gamma");
+    if (profile.gammas.size() < 2 || !ascend(profile.gammas))
+        checked.refuse("angles gamma", "others", "at least two that ascend");
+    const std::vector<double> &planes = profile.planes;
+    if (planes.empty() || !ascend(planes) ||
+        (planes.size() > 1 && (planes.front() != 0.0 || planes.back() != 360.0)))
+        checked.refuse("angles C", "others", "one, or those from 0 to 360 that ascend");
+    // Cells are counted by 16 bits; those of before and behind the profile are two more.
+    checked.atMost(65535 - 2, std::max(planes.size(), profile.gammas.size()), "angles");
+    if (profile.shares.size() != planes.size() * profile.gammas.size())
+        checked.refuse("values", fmt::format("{}", profile.shares.size()),
+                       fmt::format("{} x {}", planes.size(), profile.gammas.size()));
+    for (const float share : profile.shares)
+        checked.within(limits::fraction, share, "share");
+}
+
+void checkLight(const Light &light, std::size_t profileCount, const Checked &checked) {
+    checked.within(limits::coordinate, light.position, "position");
+    checked.within(limits::power, light.power, "power");
+    checkDirection(checked, light.direction, "direction");
+    checked.within(limits::spotAngle, light.angleDegrees, "angle");
+    checked.within(limits::fraction, light.blend, "blend");
+    if (!light.profile)
+        return;
+    checked.indexBelow(profileCount, *light.profile, "profile");
+    if (light.kind == LightKind::Directional)
+        checked.refuse("profile", "one of a directional light", "those of points and spots");
+    checkDirection(checked, light.c0, "c0");
+    if (isParallel(light.direction, light.c0))
+        checked.refuse("c0", "the light's own direction", "any other one");
+}
+
 template <class Number>
 void checkRange(const NumberSetting<Number> &number, const RenderSettings &settings, std::string_view key,
                 const Checked &checked) {
@@ -373,14 +411,14 @@ void validateScene(const Scene &scene, const std::string &sourceName) {
     whole.within(limits::fraction, scene.shadowThroughGlass, "shadowThroughGlass");
 
     checkCamera(scene.camera, {sourceName, "camera"});
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Checked checked(sourceName, "light", i);
-        checked.within(limits::coordinate, scene.lights[i].position, "position");
-        checked.within(limits::power, scene.lights[i].power, "power");
-        checkDirection(checked, scene.lights[i].direction, "direction");
-        checked.within(limits::spotAngle, scene.lights[i].angleDegrees, "angle");
-        checked.within(limits::fraction, scene.lights[i].blend, "blend");
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        checkLight(scene.lights[i], scene.profiles.size(), {sourceName, "light", i});
+    std::size_t valueCount = 0;
+    for (std::size_t i = 0; i < scene.profiles.size(); ++i) {
+        checkProfile(scene.profiles[i], {sourceName, "profile", i, scene.profiles[i].name});
+        valueCount += scene.profiles[i].shares.size();
     }
+    whole.atMost(limits::profileValueCount, valueCount, "values of profiles");
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         checkMaterial(scene.materials[i], scene.textures,
                       {sourceName, "material", i, scene.materials[i].name});

@@ -307,7 +307,9 @@ uint stepsOfTurn() {
     uint texels = (lighting & lightsByEnvironment) != 0u
                       ? RAYS * uint(findMSB(frame.environmentWidth) + findMSB(frame.environmentHeight) + 2)
                       : 0u;
-    return emitters + texels;
+    const uint stepsPerProfile = 12u; // of a usual one
+    uint profiles = (lighting & lightsByProfiles) != 0u ? RAYS * stepsPerProfile : 0u;
+    return emitters + texels + profiles;
 }
 
 #include "shaders/drive/drive.glsl"

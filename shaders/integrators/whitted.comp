@@ -228,6 +228,9 @@ void addLight(const Answer answer) {
         vec3 irradiance = light.intensity * (isDirectional ? cosine : divide(cosine, squaredDistance));
         if ((lighting & lightsBySpots) != 0u && light.kind == lightSpot)
             irradiance *= spotFalloff(request.ray.direction, light.axis, light.cosineOuter, light.falloffScale);
+        if ((lighting & lightsByProfiles) != 0u && lightKindOf(light) == lightProfiled)
+            irradiance *= spotFalloff(request.ray.direction, light.axis, light.cosineOuter, light.falloffScale) *
+                          profileShare(profileOf(light), request.ray.direction, light.axis);
         vec3 reflected = path.lightWeight * irradiance;
         if (isDimmed)
             reflected *= frame.shadowThroughGlass;

@@ -460,10 +460,11 @@ const uint sheenTexelCount = energyCellCount; // of scenes with sheen, from Fram
 const uint lightPoint = 0u;
 const uint lightSpot = 1u;
 const uint lightDirectional = 2u;
+const uint lightProfiled = 3u; // a point or a spot with the profile of a lamp: see lightKindOf, profileOf
 
 struct LightRecord {
     vec3 position;
-    uint kind;
+    uint kind; // with the index of its profile
     // radiant intensity, power / (4 pi), of a spot on its axis; irradiance of a directional light
     vec3 intensity;
     float cosineOuter; // of a spot: it is dark beyond this angle to its axis
@@ -471,6 +472,23 @@ struct LightRecord {
     // Of a spot: 1 / (cosine where it begins to fade - cosineOuter); negative: it fades by a square.
     float falloffScale;
 };
+
+const uint lightKindBits = 2u;
+
+HYALITE_INLINE uint lightKindOf(LightRecord light) { return light.kind & ((1u << lightKindBits) - 1u); }
+
+// A light's index among those with a profile.
+HYALITE_INLINE uint profileOf(LightRecord light) { return light.kind >> lightKindBits; }
+
+// A point light with a profile is a spot whose cone holds all directions.
+const float cosineOfNoCone = -2.0f;
+const float scaleOfNoCone = 2.0f;
+
+// Profiles of lights (shaders/lights/profile.glsl), among the lookup rows from FrameRecord::lightProfiles on:
+// - a row for each light with a profile: the direction where C is 0, and where its table begins, counted from there on;
+// - each table: a row with the numbers of its intervals, those of gamma + those of C * 2^16; then a row for each interval
+//   of gamma, and for each of C, with its lower end in turns, 1 / its length, and its upper end as a random number is
+//   compared (word); then for each interval of C, and in it for each of gamma, a row with the shares at its four corners.
 
 // Emitters: targets of the path integrator's shadow rays. Each shadow ray chooses one, with a probability in proportion
 // to its power, or by the light tree. They are in the order of the input: lights, spheres, triangles, the environment.
@@ -481,6 +499,7 @@ const uint emitterTriangle = 2u;
 const uint emitterSpot = 3u;
 const uint emitterDirectional = 4u;
 const uint emitterEnvironment = 5u;
+const uint emitterProfiled = 6u; // a point or a spot with a profile
 
 struct EmitterRecord {
     vec3 position; // of a point light or a spot
@@ -488,11 +507,11 @@ struct EmitterRecord {
     vec3 emission; // radiance of a surface; intensity of a light, as above
     float probability;
     uint cumulative; // of 2^32 random numbers, those below it choose this emitter or one before it
-    uint record;     // index among the sphere or the triangle records
+    uint record;     // index among the sphere or the triangle records, or among the lights with a profile
     // of a triangle or a sphere, per unit of area, and in the light tree if it is chosen; of a spot its falloffScale
     float pdf;
     uint sidesAndGroup; // see isTwoSided, lightGroupOf
-    vec3 axis;         // of a spot or a directional light
+    vec3 axis;         // of a spot, a directional light, or one with a profile
     float cosineOuter; // of a spot
 };
 
@@ -531,6 +550,7 @@ const uint lightsByTriangles = 1u << emitterTriangle;
 const uint lightsBySpots = 1u << emitterSpot;
 const uint lightsByDirections = 1u << emitterDirectional;
 const uint lightsByEnvironment = 1u << emitterEnvironment; // an image around the scene
+const uint lightsByProfiles = 1u << emitterProfiled;
 
 // ---- Cameras
 
@@ -609,7 +629,7 @@ struct FrameRecord {
     uint mediaAtEye;      // the glass around the eye (shaders/bsdf/media.glsl)
     uint mediumAtEye;     // the one that is there, or noMaterial: kernels do not branch on uniform values
     uint environmentGroup; // of light: of the environment, or the background
-    uint pad1;
+    uint lightProfiles; // the first lookup row of profiles
 };
 
 // ---- Dispatch constants

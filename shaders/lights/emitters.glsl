@@ -27,6 +27,12 @@ LightSample sampleSpot(EmitterRecord emitter, float chance, vec3 position) {
     return light;
 }
 
+LightSample sampleProfiled(EmitterRecord emitter, float chance, vec3 position) {
+    LightSample light = sampleSpot(emitter, chance, position);
+    light.radiance *= profileShare(emitter.record, light.direction, emitter.axis);
+    return light;
+}
+
 LightSample sampleDirectional(EmitterRecord emitter) {
     return LightSample(-emitter.axis, unboundedDistance, emitter.emission * divide(1.0, emitter.probability), 0.0,
                        noPrimitive);
@@ -178,6 +184,8 @@ LightSample sampleEmitter(EmitterChoice choice, vec3 position, uvec2 bits) {
         return samplePoint(emitter, chance, position);
     if (isEmitter(emitter, emitterSpot))
         return sampleSpot(emitter, chance, position);
+    if (isEmitter(emitter, emitterProfiled))
+        return sampleProfiled(emitter, chance, position);
     if (isEmitter(emitter, emitterDirectional))
         return sampleDirectional(emitter);
     if (isEmitter(emitter, emitterEnvironment))

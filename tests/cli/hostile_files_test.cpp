@@ -122,6 +122,40 @@ TEST_F(HostileFiles, WhatIsNotObjIsNamed) {
     expectTaken("mesh.obj", "# \xc3\xa9\x85 \f\x1a\n" + corners + "f 1 2 3\n");
 }
 
+TEST_F(HostileFiles, ProfilesOfLampsAreBounded) {
+    store(
+        "lamp.json",
+        R"({ "lights": [ { "type": "point", "position": [0, 1, 0], "power": 1, "profile": "lamp.ies" } ] })");
+    const auto expectProfileRefused = [&](const std::string &content, const std::string &part) {
+        store("lamp.ies", content);
+        const Outcome outcome = run("inspect lamp.json");
+        EXPECT_EQ(outcome.exitCode, 3) << outcome;
+        EXPECT_TRUE(contains(outcome.errors, part)) << outcome;
+        EXPECT_LT(outcome.errors.size(), 2000u);
+        for (const char c : outcome.errors)
+            EXPECT_TRUE(c == '\n' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F)) << outcome;
+#ifndef __SANITIZE_ADDRESS__
+        EXPECT_LE(outcome.peakMemoryBytes, (std::size_t{64} << 20) + 64 * content.size());
+#endif
+    };
+    const std::string head = "TILT=NONE\n1 1 1 ";
+    expectProfileRefused("\x1f\x8b\x08\0\0\0"s, "gzip data");
+    expectProfileRefused(head + "8192 8192 1 2 0 0 0 1 1 50\n", "more than the rest of the file holds");
+    expectProfileRefused(head + "\x1b[31m", "lamp.ies:2: number of vertical angles");
+    expectProfileRefused(head + std::string(1 << 20, '9'), "number of vertical angles");
+    expectProfileRefused("TILT=INCLUDE\n1 65536 0", "angles of TILT");
+    // The most that a file becomes: a value of two bytes stands for four all around.
+    std::string large = head + "1000 1000 1 2 0 0 0 1 1 50\n";
+    for (int gamma = 0; gamma < 1000; ++gamma)
+        large += std::to_string(0.09 * gamma) + " ";
+    for (int plane = 0; plane < 1000; ++plane)
+        large += plane == 999 ? "90 " : std::to_string(0.09 * plane) + " ";
+    store("lamp.ies", large + repeated("1 ", 1'000'000));
+    const Outcome outcome = run("inspect lamp.json");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome;
+    EXPECT_TRUE(contains(outcome.output, "1000 angles gamma, 3997 C, 1 cd at most")) << outcome;
+}
+
 TEST_F(HostileFiles, PlyTakesMemoryInProportion) {
     const std::string vertices = "element vertex 4\nproperty char x\nproperty char y\nproperty char z\n";
     const std::string head = "ply\nformat binary_little_endian 1.0\n" + vertices;

@@ -37,6 +37,7 @@ for format in "${formats[@]}"; do
     case $format in
     mtl) words=("-dict=$here/mtl.words") ;;
     obj) words=("-dict=$here/obj.words") ;;
+    ies) words=("-dict=$here/ies.words") ;;
     gltf) words=("-dict=$here/gltf.words") ;;
     ply) words=("-dict=$here/ply.words") ;;
     stl) words=("-dict=$here/stl.words") ;;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace hyalite::core::testing::plain {
 
@@ -26,15 +27,47 @@ double falloff(const Light &spot, double cosine) {
     return spot.fade == SpotFade::Square ? t * t : 3.0 * t * t - 2.0 * t * t * t;
 }
 
+/// Between which of ascending angles one is: the index of the first one, and the share of the second one.
+std::pair<std::size_t, double> between(const std::vector<double> &angles, double angle) {
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i)
+        if (angle >= angles[i] && angle <= angles[i + 1])
+            return {i, (angle - angles[i]) / (angles[i + 1] - angles[i])};
+    return {0, 0.0};
+}
+
+/// Share of the greatest intensity in a direction away from the lamp, of unit length. Seen from above, with the lamp's
+/// direction down and C = 0 to the right, C grows counter-clockwise.
+double profileShareOf(const LightProfile &profile, const Light &light, const Vec &away) {
+    const Vec down = glm::normalize(light.direction);
+    const Vec right = glm::normalize(light.c0 - down * glm::dot(down, light.c0));
+    const Vec up = glm::cross(-down, right);
+    const double gamma = glm::degrees(std::acos(std::clamp(glm::dot(away, down), -1.0, 1.0)));
+    const double turned = glm::degrees(std::atan2(glm::dot(away, up), glm::dot(away, right)));
+    if (gamma < profile.gammas.front() || gamma > profile.gammas.back())
+        return 0.0;
+    const std::size_t count = profile.gammas.size();
+    const auto [row, below] = between(profile.gammas, gamma);
+    const auto inPlane = [&, first = row, share = below](std::size_t plane) {
+        return (1.0 - share) * static_cast<double>(profile.shares[plane * count + first]) +
+               share * static_cast<double>(profile.shares[plane * count + first + 1]);
+    };
+    if (profile.planes.size() == 1)
+        return inPlane(0);
+    const auto [plane, around] = between(profile.planes, turned < 0.0 ? turned + 360.0 : turned);
+    return (1.0 - around) * inPlane(plane) + around * inPlane(plane + 1);
+}
+
 } // namespace
 
-Arrival arrivalFrom(const Light &light, const Vec &position) {
+Arrival arrivalFrom(const Scene &scene, const Light &light, const Vec &position) {
     const Vec axis = glm::normalize(light.direction);
     if (light.kind == LightKind::Directional)
         return {-axis, std::numeric_limits<double>::infinity(), light.power};
     const double distance = glm::length(light.position - position);
     const Vec direction = (light.position - position) / distance;
-    const double share = light.kind == LightKind::Spot ? falloff(light, -glm::dot(direction, axis)) : 1.0;
+    double share = light.kind == LightKind::Spot ? falloff(light, -glm::dot(direction, axis)) : 1.0;
+    if (light.profile)
+        share *= profileShareOf(scene.profiles[*light.profile], light, -direction);
     return {direction, distance, light.power * (share / (4.0 * pi * distance * distance))};
 }
 

@@ -14,7 +14,7 @@ struct Arrival {
     Vec irradiance;  ///< of a surface that faces it
 };
 
-[[nodiscard]] Arrival arrivalFrom(const Light &light, const Vec &position);
+[[nodiscard]] Arrival arrivalFrom(const Scene &scene, const Light &light, const Vec &position);
 
 /// Radiance that comes from infinitely far away in this direction, which leads there.
 [[nodiscard]] Vec surroundings(const Scene &scene, const Vec &direction);

@@ -1,4 +1,5 @@
 // Lights: on matt and on metal surfaces, the renderers' mean radiance is that of the plain path tracer.
+#include "tests/fixtures/profile_of_lamp.h"
 #include "tests/fixtures/test_scene.h"
 #include "tests/images/plain_comparison.h"
 #include "tests/images/plain_scenes.h"
@@ -52,6 +53,34 @@ std::vector<Lighting> lightings() {
     all.push_back({"SharpSpot", [spot](TestScene &scene) {
                        scene.lights.push_back(spot);
                        scene.lights.back().blend = 0.0;
+                   }});
+    all.push_back({"ProfiledPoint", [](TestScene &scene) {
+                       scene.profiles = {testing::crookedLamp()};
+                       scene.lights.push_back(
+                           light(LightKind::Point, {-1.0, 2.0, 2.0}, {90.0, 60.0, 70.0}, {0.3, -1.0, -0.6}));
+                       scene.lights.back().profile = 0;
+                       scene.lights.back().c0 = {0.2, 0.1, 1.0};
+                   }});
+    all.push_back({"ProfiledSpot", [spot](TestScene &scene) {
+                       scene.profiles = {testing::ringLamp(), testing::crookedLamp()};
+                       scene.lights.push_back(spot);
+                       scene.lights.back().profile = 1;
+                   }});
+    const auto profiled = [](TestScene &scene) {
+        scene.profiles = {testing::crookedLamp(), testing::ringLamp(), testing::uplight()};
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            const glm::dvec3 place{0.5 * (i % 3) - 1.0, i % 3 == 2 ? 0.8 : 1.6, 0.7 * (i / 3)};
+            scene.lights.push_back(light(i % 2 == 0 ? LightKind::Point : LightKind::Spot, place,
+                                         {9.0, 8.0, 7.0}, {0.2 * (i % 4) - 0.3, -1.0, 0.1}));
+            scene.lights.back().angleDegrees = 120.0;
+            scene.lights.back().profile = i % 3;
+        }
+        scene.lights.push_back({{-1.0, 2.0, 2.0}, {5.0, 6.0, 7.0}});
+    };
+    all.push_back({"ManyProfiled", profiled});
+    all.push_back({"ManyProfiledByTree", [profiled](TestScene &scene) {
+                       profiled(scene);
+                       scene.settings.lightChoice = LightChoice::Tree;
                    }});
     all.push_back(
         {"Directional", [](TestScene &scene) {

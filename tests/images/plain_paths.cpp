@@ -191,7 +191,7 @@ class Path {
             return glm::dot(direction, point.geometricNormal) <= 0.0 ? sides->beyond : sides->before;
         };
         for (const Light &light : world_.scene.lights) {
-            const Arrival arrival = arrivalFrom(light, point.position);
+            const Arrival arrival = arrivalFrom(world_.scene, light, point.position);
             const Vec lit = evaluate(arrival.direction) * arrival.irradiance;
             if (lit != Vec(0.0) &&
                 world_.isVisible(point.position, arrival.direction, arrival.distance, left_, generator_))

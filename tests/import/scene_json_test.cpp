@@ -58,6 +58,14 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(scene.lights[2].power, glm::dvec3(3, 2, 1));
     EXPECT_EQ(scene.lights[0].position, glm::dvec3(-10, 20, 40));
     EXPECT_EQ(scene.lights[0].power, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.lights[0].profile, 0u);
+    EXPECT_EQ(scene.lights[0].direction, glm::dvec3(0, -2, 0));
+    EXPECT_EQ(scene.lights[0].c0, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(scene.lights[1].profile, 0u) << "each file is read once";
+    EXPECT_EQ(scene.lights[1].c0, glm::dvec3(1, 0, 0));
+    EXPECT_FALSE(scene.lights[2].profile);
+    ASSERT_EQ(scene.profiles.size(), 1u);
+    EXPECT_EQ(scene.profiles[0].shares, (std::vector<float>{1.0f, 0.5f}));
 
     ASSERT_EQ(scene.materials.size(), 6u);
     const Material &brass = scene.materials[0]; // in the order of the alphabet

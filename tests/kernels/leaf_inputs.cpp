@@ -104,6 +104,8 @@ struct Situation {
                 sphereEmitters.push_back(i);
             else if (packed.emitters[i].kind == layout::emitterTriangle)
                 triangleEmitters.push_back(i);
+            else if (packed.emitters[i].kind == layout::emitterProfiled)
+                profiledEmitters.push_back(i);
     }
 
     const auto &some(const auto &array) { return array[draw.index(countOf(array))]; }
@@ -153,6 +155,13 @@ struct Situation {
     uint textureWidth() { return textureWords<float>(scene, texture).y & 0xFFFFu; }
     uint textureHeight() { return textureWords<float>(scene, texture).y >> 16u; }
 
+    /// The first interval of gamma of the first light with a profile.
+    uint gammaRow() {
+        const uint first = packed.frame.lightProfiles;
+        return first + packed.lookups[first].word + 1;
+    }
+    uint gammaCount() { return packed.lookups[gammaRow() - 1].word & 0xFFFFu; }
+
     vec4 tangent() { return {draw.direction(), draw.chance(8) ? 0.0f : draw.chance(2) ? -1.0f : 1.0f}; }
 
     BoxRay<float> boxRay() { return makeBoxRay(origin, direction, lower, upper); }
@@ -198,7 +207,7 @@ struct Situation {
     Draw draw;
     const SceneView<float> &scene;
     const PackedScene &packed;
-    std::vector<uint> textureRows, sphereEmitters, triangleEmitters;
+    std::vector<uint> textureRows, sphereEmitters, triangleEmitters, profiledEmitters;
 
     vec3 v0{}, v1{}, v2{}, apex{}; ///< two triangles with a common edge
     vec3 centre{};
@@ -302,7 +311,7 @@ const std::vector<InputRow> inputRows{
     {"bool", by([](S &s) { return s.draw.chance(2); })},
     {"uint axis, uint corner, uint firstCorner, uint secondCorner, uint wrap",
      by([](S &s) { return s.draw.index(3); })},
-    {"uint kind", by([](S &s) { return s.draw.index(layout::emitterEnvironment + 1); })},
+    {"uint kind", by([](S &s) { return s.draw.index(layout::emitterProfiled + 1); })},
     {"uint kindAndSides", by([](S &s) {
          return s.draw.index(layout::materialGltf + 1) | (s.draw.word() & ~layout::materialKindMask);
      })},
@@ -370,6 +379,16 @@ const std::vector<InputRow> inputRows{
     {"Bsdf", by([](S &s) { return s.bsdf(); })},
     {"SineCosine", by([](S &s) { return sineCosine(s.draw.unit()); })},
     {"SheenFit", by([](S &s) { return sheenFit(alpha(s.draw)); })},
+    {"EmitterRecord sampleProfiled.emitter",
+     by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.some(s.profiledEmitters)]; })},
+    {"uint profileShare.index", by([](S &s) { return s.draw.index(countOf(s.profiledEmitters)); })},
+    {"vec3 profileShare.axis", by([](S &s) { return s.direction; })},
+    {"vec3 profileShare.toLight", by([](S &s) {
+         return s.draw.chance(2) ? s.draw.direction() : s.draw.chance(2) ? s.direction : -s.direction;
+     })},
+    {"uint profilePlace.first", by([](S &s) { return s.gammaRow(); })},
+    {"uint profilePlace.count", by([](S &s) { return 1 + s.draw.index(s.gammaCount()); })},
+    {"float profilePlace.turns", by([](S &s) { return (s.draw.chance(2) ? 0.5f : 1.0f) * share(s.draw); })},
     {"uint EmitterChoice.index",
      by([](S &s) { return s.draw.chance(4) ? s.lamp : s.indexIn(s.packed.emitters); })},
     {"uint pdfOfEmitter.index",

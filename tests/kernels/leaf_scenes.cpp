@@ -1,8 +1,8 @@
 #include "tests/kernels/leaf_scenes.h"
 
-#include "host/packing/pixel_filter.h"
 #include "host/scene/instances.h"
 #include "host/scene/validate.h"
+#include "tests/fixtures/profile_of_lamp.h"
 #include "tests/fixtures/texture_fixture.h"
 #include "tests/kernels/draw.h"
 
@@ -152,7 +152,8 @@ Scene drawnScene() {
     for (std::size_t i = 0; i < 40; ++i)
         scene.spheres.push_back({glm::dvec3(15.0f * draw.direction()), 0.05 + draw.unit(),
                                  ofSpheres[i % ofSpheres.size()], draw.chance(3)});
-    for (int i = 0; i < 12; ++i) {
+    scene.profiles = {crookedLamp(), ringLamp()};
+    for (int i = 0; i < 16; ++i) {
         Light light;
         light.kind = static_cast<LightKind>(i % 3);
         light.position = glm::dvec3(12.0f * draw.direction());
@@ -160,6 +161,10 @@ Scene drawnScene() {
         light.power = glm::dvec3(drawColour(draw)) * 100.0;
         light.fade = i % 2 == 0 ? SpotFade::Smooth : SpotFade::Square;
         light.blend = draw.unit();
+        if (i >= 12 && light.kind != LightKind::Directional) {
+            light.profile = static_cast<std::uint32_t>(i % 2);
+            light.c0 = glm::dvec3(draw.direction());
+        }
         scene.lights.push_back(light);
     }
     scene.environment.radiance = Image(37, 19);
@@ -174,7 +179,6 @@ Scene drawnScene() {
 PackedScene packedByTree() {
     const Scene scene = drawnScene();
     PackedScene packed = packScene(scene, buildBvh(TreeKind::Sah, scene, 4), {LightChoice::Tree, 0});
-    packFilter(packed);
     packed.frame.seed = 12345;
     packed.frame.maxDepth = 8;
     Draw draw;

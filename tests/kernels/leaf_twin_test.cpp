@@ -33,6 +33,7 @@ const std::map<std::string, std::vector<std::size_t>> constantResults{
     {"environmentRow", {1, 2}}, // likewise
     {"samplePoint", {7, 8}},    // no pdf, no target
     {"sampleSpot", {7, 8}},
+    {"sampleProfiled", {7, 8}},
     {"sampleDirectional", {3, 7, 8}}, // and no distance
     {"sampleEnvironmentLight", {3, 8}},
     // Of materials with textures of the scene: tints, absorption and metals, which those do not have, and padding.

@@ -2,6 +2,7 @@
 
 #include "host/packing/light_planes.h"
 #include "host/scene/instances.h"
+#include "tests/fixtures/profile_of_lamp.h"
 #include "tests/fixtures/test_scene.h"
 #include "tests/fixtures/texture_fixture.h"
 
@@ -182,6 +183,10 @@ void addLighting(Rows &rows) {
     add("lightsByPoints", layout::lightsByPoints, litBy(LightKind::Point));
     add("lightsBySpots", layout::lightsBySpots, litBy(LightKind::Spot));
     add("lightsByDirections", layout::lightsByDirections, litBy(LightKind::Directional));
+    TestScene profiled = litBy(LightKind::Point);
+    profiled.profiles = {crookedLamp()};
+    profiled.lights[0].profile = 0;
+    add("lightsByProfiles", layout::lightsByProfiles, profiled);
     TestScene spheres = base();
     spheres.materials[1].emission = glm::vec3(5.0f);
     spheres.spheres = {{{1, 1, 2}, 0.3, 1, false}};

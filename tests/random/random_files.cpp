@@ -110,4 +110,32 @@ std::string FileDraws::addObj() {
     return "patch.obj";
 }
 
+std::string FileDraws::addLamp(std::size_t index) {
+    constexpr std::size_t lampCount = 4;
+    index %= lampCount;
+    const std::string name = fmt::format("lamp-{}.ies", index);
+    if (files_.contains(name))
+        return name;
+    Draws draws(index, 0); // others keep theirs
+    const std::vector<std::string> planes{"0", "0 37 90", "90 150 170 270", "0 5 100 240 360"};
+    const std::vector<std::size_t> planeCounts{1, 3, 4, 5};
+    const bool isUp = index == 2;
+    json lines{"IESNA:LM-63-2002",
+               "TILT=NONE",
+               fmt::format("1 -1 2 5 {} 1 2 0 0 0", planeCounts[index]),
+               "1 1 50",
+               isUp         ? "90 91 120 140 180"
+               : index == 1 ? "0 30 31 60 90"
+                            : "0 45 90 135 180",
+               planes[index]};
+    for (std::size_t plane = 0; plane < planeCounts[index]; ++plane) {
+        std::string line = index == 3 && plane == 2 ? "0" : "70"; // each has some light
+        for (int gamma = 1; gamma < 5; ++gamma)
+            line += fmt::format(" {}", draws.chance(0.3) ? 0.0 : draws.uniform(0.0, 100.0));
+        lines.push_back(line);
+    }
+    files_[name] = lines;
+    return name;
+}
+
 } // namespace hyalite::core::testing

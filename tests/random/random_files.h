@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ class FileDraws {
     /// A colour image, maybe with alpha, or a normal map.
     std::string addImage(bool isNormal);
     std::string addObj();
+    /// The profile of a lamp, which depends on `index` alone.
+    std::string addLamp(std::size_t index);
     [[nodiscard]] Patch patch();
 
   private:

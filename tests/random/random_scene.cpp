@@ -102,6 +102,15 @@ class SceneDrawer {
             light["fade"] =
                 spotFadeNames[index % spotFadeNames.size()].first; // seeds keep the rest of their scenes
         }
+        if (kind != LightKind::Directional && index % 3 == 1) { // likewise
+            light["profile"] = drawn_.addLamp(index / 3);
+            if (kind == LightKind::Point)
+                light["direction"] = {0.25 * static_cast<double>(index % 5) - 0.5, -1, 0.125};
+            light["c0"] = {light["direction"][1], light["direction"][2], light["direction"][0]};
+            if (light["direction"][0] == light["direction"][1] &&
+                light["direction"][1] == light["direction"][2])
+                light.erase("c0");
+        }
         return light;
     }
 

@@ -73,7 +73,7 @@ std::string glbBytes(const json &model) {
 
 std::string contentOf(const std::string &name, const json &file) {
     const std::string extension = std::filesystem::path(name).extension().string();
-    if (extension == ".obj")
+    if (extension == ".obj" || extension == ".ies")
         return objText(file);
     if (extension == ".pfm")
         return pfmBytes(file);
