@@ -244,7 +244,8 @@ bool moveMoreThanCameras(const Document &document, const std::vector<std::size_t
     return std::ranges::any_of(nodes, [&](std::size_t index) {
         const JsonObject node(document.at("nodes", index));
         return node.find("skin") ||
-               (moving[index] && (node.find("mesh") || extensionOf(node, "KHR_lights_punctual")));
+               (moving[index] && (node.find("mesh") || extensionOf(node, "KHR_lights_punctual") ||
+                                  extensionOf(node, "EXT_lights_ies")));
     });
 }
 
@@ -262,6 +263,8 @@ std::string contentsOf(const Document &document, const JsonObject &node) {
             add(key, nameOf(JsonObject(document.at(array, *index))), node.at(key));
     if (const auto light = extensionOf(node, "KHR_lights_punctual"))
         add("light", "", light->at("light"));
+    if (const auto light = extensionOf(node, "EXT_lights_ies"))
+        add("profile", "", light->at("light"));
     return contents;
 }
 
@@ -373,13 +376,19 @@ Contents readContents(const std::filesystem::path &path, const FileAccess &acces
     MeshUses uses(buffers, poses, toWorld, bounds);
     NamedNodes named = namedNodesOf(document, tree, nodes);
     contents.file.nodes = std::move(named.nodes);
-    for (const std::size_t node : shown) {
-        uses.add(node, named.positions[node]);
-        if (const auto light = readLight(document, JsonObject(document.at("nodes", node)), toWorld[node]))
+    ProfiledLights profiled(buffers, near);
+    for (const std::size_t index : shown) {
+        uses.add(index, named.positions[index]);
+        const JsonObject node(document.at("nodes", index));
+        if (const auto light = readLight(document, node, toWorld[index]))
+            contents.lights.push_back(*light);
+        if (const auto light = profiled.read(node, toWorld[index]))
             contents.lights.push_back(*light);
     }
     if (scene)
         contents.environment = readImageBasedLight(buffers, near, *scene);
+    contents.profiles = profiled.give();
+    report.warnings.insert(report.warnings.end(), profiled.warnings().begin(), profiled.warnings().end());
     readMeshes(buffers, uses.uses(), options.onReading, materials.shownAs, contents.file);
     contents.outline = outlineOf(document, tree, nodes);
     contents.camera = readCamera(document, nodes, toWorld, options.camera);

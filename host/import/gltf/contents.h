@@ -28,7 +28,8 @@ struct Contents {
     GltfOutline outline{};
     MeshFile file; ///< names its buffers, too, in its report
     std::vector<Light> lights;
-    std::optional<Image> environment{}; ///< radiance, as Environment has it
+    std::optional<Image> environment{};   ///< radiance, as Environment has it
+    std::vector<LightProfile> profiles{}; ///< of the lights
     std::optional<PlacedCamera> camera;
     CameraPath cameraPath{};                ///< of a sequence in which nothing else moves
     bool movesByTime = false;               ///< meshes or lights do

@@ -70,6 +70,7 @@ LoadedScene loadGltf(const std::filesystem::path &file, const LoadOptions &optio
     std::ranges::move(contents.file.materials, std::back_inserter(scene.materials));
     scene.textures = textures.give();
     scene.lights = std::move(contents.lights);
+    scene.profiles = std::move(contents.profiles);
     scene.nodes = std::move(contents.file.nodes);
     addMeshes(std::move(contents.file.meshes), scene);
     setCamera(contents.camera, loaded);
