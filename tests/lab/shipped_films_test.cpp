@@ -119,8 +119,8 @@ TEST_F(Shipped, ScenesReachEveryMaterialLightAndCamera) {
     EXPECT_EQ(slots.size(), std::size_t{layout::textureSlotCount});
     EXPECT_TRUE(hasLens);
     EXPECT_TRUE(hasTreeBehindThin);
-    for (const std::uint32_t kind :
-         {layout::lightsByEnvironment, layout::lightsByDirections, layout::lightsBySpots})
+    for (const std::uint32_t kind : {layout::lightsByEnvironment, layout::lightsByDirections,
+                                     layout::lightsBySpots, layout::lightsByProfiles})
         EXPECT_NE(lighting & kind, 0u) << kind;
 }
 
