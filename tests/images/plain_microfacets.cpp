@@ -171,8 +171,10 @@ Vec randomFacet(double alpha, Generator &generator) {
     return facetOf(share, 2.0 * pi * uniform(generator), alpha);
 }
 
-Energy integrateEnergy(double cosine, double alpha, int steps) {
-    Energy sum{0.0, 0.0};
+namespace {
+
+/// Visits facets by the cosine to the view, with the share of the light that they reflect at once.
+template <class Visit> void forEachFacet(double cosine, double alpha, int steps, const Visit &visit) {
     const double height = std::max(cosine, 1e-9);
     const Vec view(std::sqrt(1.0 - height * height), 0.0, height);
     for (int i = 0; i < steps; ++i) {
@@ -187,10 +189,27 @@ Energy integrateEnergy(double cosine, double alpha, int steps) {
             if (toFacet <= 0.0 || light.z <= 0.0)
                 continue;
             const double reflected = weight * smith(view, light, alpha) * toFacet / (view.z * facet.z);
-            sum.white += reflected;
-            sum.grazing += reflected * fifthPower(1.0 - std::min(toFacet, 1.0));
+            visit(std::min(toFacet, 1.0), reflected);
         }
     }
+}
+
+} // namespace
+
+Energy integrateEnergy(double cosine, double alpha, int steps) {
+    Energy sum{0.0, 0.0};
+    forEachFacet(cosine, alpha, steps, [&](double toFacet, double reflected) {
+        sum.white += reflected;
+        sum.grazing += reflected * fifthPower(1.0 - toFacet);
+    });
+    return sum;
+}
+
+double integrateReflected(double cosine, double alpha, int steps,
+                          const std::function<double(double)> &fresnel) {
+    double sum = 0.0;
+    forEachFacet(cosine, alpha, steps,
+                 [&](double toFacet, double reflected) { sum += reflected * fresnel(toFacet); });
     return sum;
 }
 

@@ -4,6 +4,8 @@
 
 #include "tests/images/plain_geometry.h"
 
+#include <functional>
+
 namespace hyalite::core::testing::plain {
 
 /// Fresnel's equations for unpolarised light between two dielectrics; `indexRatio` is the refractive index on the side
@@ -62,6 +64,10 @@ struct Energy {
 
 /// The quadrature itself, with steps * steps facets.
 [[nodiscard]] Energy integrateEnergy(double cosine, double alpha, int steps);
+
+/// Likewise, of facets that reflect `fresnel` of the cosine to the direction.
+[[nodiscard]] double integrateReflected(double cosine, double alpha, int steps,
+                                        const std::function<double(double)> &fresnel);
 
 /// What facets of glass reflect and refract at once of light from one direction, both together, as power. Likewise
 /// between quadratures, for every `indexRatio` that is asked for.
