@@ -9,34 +9,24 @@ Bsdf makeGlass(Bsdf bsdf) {
     return bsdf;
 }
 
-// Transmission, for `wi` below the surface.
-BsdfEval evalGlassTransmission(Bsdf bsdf, vec3 wi) {
-    vec3 facet = halfVectorOfRefraction(bsdf.wo, wi, bsdf.eta);
+// `wi` may be on either side.
+BsdfEval evalGlass(Bsdf bsdf, vec3 wi) {
+    bool isRefracted = wi.z < 0.0;
+    vec3 facet = isRefracted ? halfVectorOfRefraction(bsdf.wo, wi, bsdf.eta) : halfVector(bsdf.wo, wi);
     float viewCosine = dotProduct(bsdf.wo, facet);
     float lightCosine = dotProduct(wi, facet);
-    if (viewCosine <= 0.0 || lightCosine >= 0.0)
+    if (isRefracted && (viewCosine <= 0.0 || lightCosine >= 0.0))
         return BsdfEval(vec3(0.0), 0.0);
-    DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
+    float reflectance = fresnelDielectric(-bsdf.wo, facet, bsdf.eta).reflectance;
     float facets = ggxD(facet, bsdf.alpha);
-    float passed = (1.0 - glass.reflectance) *
-                            pdfRefraction(facets, bsdf.wo, bsdf.stretchWo, viewCosine, lightCosine, bsdf.eta);
     float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, stretchOf(wi, bsdf.alpha));
-    float value = passed * lit * (bsdf.eta * bsdf.eta) * bsdf.weight;
-    return BsdfEval(bsdf.tint * value, passed);
-}
-
-// Reflection, for `wi` above the surface.
-BsdfEval evalGlassReflection(Bsdf bsdf, vec3 wi) {
-    vec3 facet = halfVector(bsdf.wo, wi);
-    float reflected = pdfReflection(ggxD(facet, bsdf.alpha), bsdf.wo, bsdf.stretchWo);
-    float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, stretchOf(wi, bsdf.alpha));
-    float share = reflected * fresnelDielectric(-bsdf.wo, facet, bsdf.eta).reflectance;
+    if (isRefracted) {
+        float passed = (1.0 - reflectance) *
+                       pdfRefraction(facets, bsdf.wo, bsdf.stretchWo, viewCosine, lightCosine, bsdf.eta);
+        float value = passed * lit * (bsdf.eta * bsdf.eta) * bsdf.weight;
+        return BsdfEval(bsdf.tint * value, passed);
+    }
+    float share = pdfReflection(facets, bsdf.wo, bsdf.stretchWo) * reflectance;
     float value = share * lit * bsdf.weight;
     return BsdfEval(vec3(value), share);
-}
-
-BsdfEval evalGlass(Bsdf bsdf, vec3 wi) {
-    if (wi.z < 0.0)
-        return evalGlassTransmission(bsdf, wi);
-    return evalGlassReflection(bsdf, wi);
 }
