@@ -98,8 +98,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
         case layout::viewAlbedo: {
-            const Vec3<Real> colour =
-                isColourless(material) ? Vec3<Real>(Real(1)) : Vec3<Real>(material.albedo);
+            const Real cosine = abs(dotProduct(ray.direction, surface.normal));
+            const Vec3<Real> colour = albedoForViews(scene_, material, cosine);
             return show(looksThrough_ ? withoutTiny<Real>(throughput_ * colour) : colour);
         }
         case layout::viewShadow:
@@ -141,7 +141,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
         if (isThinGlass(scene_, material) && !isMetal)
             return scatterThinGlass(ray, surface, material, hit.primitive);
         const Real cosine = abs(dotProduct(ray.direction, surface.normal));
-        weaken(isMixed ? schlickReflectance(cosine, material.albedo, Real(1))
+        weaken(isMixed ? metalReflectance(scene_, material, cosine)
                        : mirrorReflectance(scene_, material, cosine));
         return reflect(ray, surface, surface.normal, hit.primitive);
     }

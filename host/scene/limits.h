@@ -35,6 +35,7 @@ inline constexpr Interval texturePlacement{-1e6, 1e6}; ///< scale and offset of 
 inline constexpr Interval normalStrength{0.0, 100.0};
 inline constexpr Interval alphaCutoff{0.0, 1e30};
 inline constexpr Interval radians{-1e6, 1e6};
+inline constexpr Interval filmThickness{0.0, 1e5}; ///< nanometres: of far less, no wave is told from another
 
 inline constexpr Interval meshScale{-1e15, 1e15}; ///< and not 0
 inline constexpr Interval segments{3, 4096};      ///< of disks and cylinders

@@ -96,6 +96,11 @@ struct Material {
     float anisotropy = 0.0f;              ///< strength, in [0, 1]
     float anisotropyRotation = 0.0f;      ///< radians, counter-clockwise from the tangent along u
     float clearcoatNormalStrength = 1.0f; ///< in [0, 100]
+    float iridescence = 0.0f;             ///< KHR_materials_iridescence: share of the film, in [0, 1]
+    float iridescenceIndex = 1.3f;        ///< of the film, in [1, 10]
+    float iridescenceThickness = 400.0f;  ///< nanometres, in [0, 1e5]; with a texture, where that is 1
+    /// Where the texture is 0; it may be more than where that is 1.
+    float iridescenceThicknessMinimum = 100.0f;
     bool isThin = false; ///< a surface without volume behind it: what it transmits is not refracted
     /// KHR_materials_pbrSpecularGlossiness: dielectricColour is the reflectance at normal incidence.
     bool isSpecularGlossy = false;
@@ -261,6 +266,18 @@ inline constexpr auto gltf = std::to_array<MaterialKey>({
      "how far facets are stretched; not those of glass"},
     {"anisotropyRotation", NumberKey{&Material::anisotropyRotation, limits::radians},
      "of the direction in which they are stretched, in radians from the one in which u grows"},
+    {"iridescence", NumberKey{&Material::iridescence, limits::fraction, &Record::iridescence},
+     "share of the surface below a thin film, whose colours change with the angle; below coat and sheen"},
+    {"iridescenceIndex",
+     NumberKey{&Material::iridescenceIndex, limits::refractiveIndex, &Record::iridescenceIndex},
+     "refractive index of the film"},
+    {"iridescenceThickness",
+     NumberKey{&Material::iridescenceThickness, limits::filmThickness, &Record::iridescenceThickness},
+     "in nanometres; 0: no film; with a texture, where that is 1"},
+    {"iridescenceThicknessMinimum",
+     NumberKey{&Material::iridescenceThicknessMinimum, limits::filmThickness,
+               &Record::iridescenceThicknessMinimum},
+     "where the texture is 0; it may be more than the other"},
     {"unlit", FlagKey{&Material::isUnlit}, "shows its base colour, whatever the light"},
     {"opacity", NumberKey{&Material::opacity, limits::fraction, &Record::opacity},
      "factor on that of textures and vertices; meshes only"},
@@ -296,8 +313,9 @@ inline constexpr std::array<TextureSlot, layout::textureSlotCount> textureSlots{
      {"dielectricColour", layout::slotDielectricColour},
      {"sheenColour", layout::slotSheenColour},
      {"sheenRoughness", layout::slotSheenRoughness, "its red channel"},
-     {"anisotropy", layout::slotAnisotropy,
-      "a direction in red and green, a factor on the strength in blue"}}};
+     {"anisotropy", layout::slotAnisotropy, "a direction in red and green, a factor on the strength in blue"},
+     {"iridescence", layout::slotIridescence, "its red channel"},
+     {"iridescenceThickness", layout::slotIridescenceThickness, "its red channel"}}};
 
 // ---- Kinds
 
@@ -325,6 +343,11 @@ struct MaterialRow {
         bits |= layout::scattersAtSheen;
     if (material.anisotropy > 0.0f)
         bits |= layout::scattersAtAnisotropic;
+    const bool isThick =
+        material.iridescenceThickness > 0.0f ||
+        (has(layout::slotIridescenceThickness) && material.iridescenceThicknessMinimum > 0.0f);
+    if (material.iridescence > 0.0f && isThick)
+        bits |= layout::scattersAtIridescent;
     if (material.clearcoat > 0.0f && (has(layout::slotNormal) || has(layout::slotClearcoatNormal)))
         bits |= layout::scattersAtCoatNormals;
     return bits;
@@ -370,7 +393,7 @@ inline constexpr auto materialTable = std::to_array<MaterialRow>({
          }},
     {.kind = MaterialKind::Gltf,
      .name = "gltf",
-     .help = "the material of glTF 2.0: metal, plastic and glass below sheen and a clear coat",
+     .help = "the material of glTF 2.0: metal, plastic and glass below a film, sheen and a clear coat",
      .keys = material_keys::gltf,
      .textures = (1u << layout::textureSlotCount) - 1u,
      .defaultRoughness = 1.0f,

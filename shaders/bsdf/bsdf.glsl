@@ -1,5 +1,6 @@
 // The dispatch of BSDFs: which class a material is of, make its BSDF at a hit, sample it, evaluate it. A new lobe has
 // its row in each of these functions; integrators ask here, and nowhere else.
+#include "shaders/bsdf/iridescence.glsl"
 #include "shaders/bsdf/bsdf_record.glsl"
 #include "shaders/bsdf/diffuse.glsl"
 #include "shaders/bsdf/opaque_ggx.glsl"
@@ -96,6 +97,16 @@ bool isColourless(MaterialRecord material) {
     return kindOf(material) == materialMirror || kindOf(material) == materialDielectric;
 }
 
+// What views show of the colour of a material, seen at this cosine to its normal: below a film, metal has that of its
+// reflection.
+vec3 albedoForViews(MaterialRecord material, float cosine) {
+    if (isColourless(material))
+        return vec3(1.0);
+    if (kindOf(material) != materialGltf || !isIridescent(material) || isUnlit(material) || !(material.metallic > 0.0))
+        return material.albedo;
+    return mixtureOf(material.albedo, metalReflectance(material, cosine), material.metallic * material.iridescence);
+}
+
 // Reflectance of a specular material that is not glass, at this cosine of the angle of incidence.
 vec3 mirrorReflectance(MaterialRecord material, float cosine) {
     if ((scattering & scattersAtConductors) == 0u || kindOf(material) != materialConductor)
@@ -146,6 +157,7 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     bsdf.thinProbability = 0.0;
     bsdf.weight = 1.0;
     bsdf.specularProbability = 0.0;
+    bsdf.iridescence = noIridescence();
     if ((scattering & scattersAtPrincipled) != 0u && kindOf(material) == materialPrincipled)
         return makePrincipled(bsdf, material, isBehind, choice);
     if ((scattering & scattersAtGltf) != 0u && kindOf(material) == materialGltf)
@@ -181,7 +193,7 @@ vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
     vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alphas, u);
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass) {
         DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
-        if (choice >= glass.reflectance)
+        if (choice >= largestComponent(glassReflectance(bsdf, glass, facet)))
             return glass.refracted.z < 0.0 ? glass.refracted : vec3(0.0);
     }
     vec3 reflected = unitVector(mirrorDirection(-bsdf.wo, facet));

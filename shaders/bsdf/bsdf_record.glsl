@@ -2,7 +2,8 @@
 //
 // All directions are unit vectors in the frame of the surface, whose +z is the normal on the side of the viewer: `wo`
 // leads back along the path, `wi` towards the light. Each lobe has a file: diffuse, opaque_ggx (metal and plastic),
-// glass_ggx, clearcoat, and sheen. principled.glsl and gltf.glsl mix them, and bsdf.glsl chooses among them.
+// glass_ggx, clearcoat, and sheen; iridescence.glsl is a film on facets. principled.glsl and gltf.glsl mix them, and
+// bsdf.glsl chooses among them.
 
 const uint bsdfDiffuse = 0u;
 const uint bsdfOpaque = 1u;
@@ -32,6 +33,7 @@ struct Bsdf {
     float thinProbability;    // of sampling a facet that lets light pass
     float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part
+    Iridescence iridescence;
 };
 
 struct BsdfEval {

@@ -1,5 +1,6 @@
-// The material of glTF 2.0: a clear coat over sheen over a mixture of metal, plastic, glass and thin glass, as the
-// specification and its extensions KHR_materials_... define it, except for what facets lose at once: see README.md.
+// The material of glTF 2.0: a clear coat over sheen over an iridescent film on a mixture of metal, plastic, glass and
+// thin glass, as the specification and its extensions KHR_materials_... define it, except for what facets lose at once:
+// see README.md.
 //
 // As in principled.glsl one component is chosen at each hit.
 
@@ -12,6 +13,15 @@ struct SurfaceAxes {
 // Reflectance of the dielectric part at normal incidence: KHR_materials_specular.
 vec3 dielectricReflectance(MaterialRecord material) {
     return lesser(material.dielectricColour * material.normalReflectance, vec3(1.0)) * material.dielectricWeight;
+}
+
+// Reflectance of the metal, smooth and with its film, at this cosine of the angle of incidence.
+vec3 metalReflectance(MaterialRecord material, float cosine) {
+    vec3 bare = schlickReflectance(cosine, material.albedo, 1.0);
+    if (!isIridescent(material))
+        return bare;
+    Iridescence film = filmOnOpaque(material, 1.0, vec3(0.0));
+    return mixtureOf(bare, iridescentReflectance(film, cosine), material.iridescence);
 }
 
 // Turns the frame so that x is the direction in which facets are stretched, and stretches them:
@@ -75,6 +85,8 @@ Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 geometr
     float glass = isInside ? 1.0 : dielectric * (material.transmission - thin);
     if ((scattering & scattersAtRoughGlass) != 0u && left < glass) {
         bsdf.tint = colour;
+        if (isIridescent(material))
+            bsdf.iridescence = filmOnGlass(material, bsdf.eta, isBehind);
         return makeGlass(bsdf);
     }
     if ((scattering & scattersAtAnisotropic) != 0u && material.anisotropy > 0.0) {
@@ -90,5 +102,10 @@ Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 geometr
     bsdf.grazing = metal + material.dielectricWeight * plastic;
     bsdf.thinTint = colour * (plastic * thin);
     vec3 average = material.albedo + (1.0 - material.albedo) * (1.0 / 21.0);
+    if (isIridescent(material)) {
+        bsdf.iridescence = filmOnOpaque(material, metal, normalReflectance);
+        if (metal > 0.0)
+            average = mixtureOf(average, averageIridescence(bsdf.iridescence), material.iridescence);
+    }
     return addOpaqueLobes(bsdf, metal, plastic * (1.0 - thin), colour, average);
 }

@@ -18,7 +18,10 @@ float lossShare(float energy, float average) {
 vec3 fresnelReflectance(Bsdf bsdf, float cosine) {
     if ((scattering & scattersAtRoughConductors) != 0u && bsdf.isConductor)
         return conductorReflectance(lesser(cosine, 1.0), bsdf.index, bsdf.extinction);
-    return schlickReflectance(cosine, bsdf.reflectance, bsdf.grazing);
+    vec3 bare = schlickReflectance(cosine, bsdf.reflectance, bsdf.grazing);
+    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0)
+        return mixtureOf(bare, iridescentReflectance(bsdf.iridescence, cosine), bsdf.iridescence.share);
+    return bare;
 }
 
 float facetStretch(Bsdf bsdf, vec3 w) {
@@ -35,13 +38,18 @@ float facetD(Bsdf bsdf, vec3 m) {
 
 
 // Adds the lobes of metal and plastic to `bsdf`. `metal` and `plastic` are their shares of the surface; `metalAverage`
-// is the cosine-weighted average reflectance of the metal.
+// is the cosine-weighted average reflectance of the metal. Of a film the base gets what it does not reflect of the
+// viewer's direction, and sends it on as below bare plastic, so that nothing is lost.
 Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 metalAverage) {
     Energy energy = energyOf(bsdf.wo.z, bsdf.roughness);
     Energy average = averageEnergy(bsdf.roughness);
     vec3 multiScatterColour = multiScatterReflectance(metalAverage, average.white) * metal;
     bsdf.multiScatter = multiScatterColour * lossShare(energy.white, average.white);
     float plasticEnergy = energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing);
+    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0 && bsdf.iridescence.metal < 1.0) {
+        float covered = iridescentEnergy(bsdf.iridescence, energy, bsdf.wo.z, bsdf.roughness, bsdf.plasticReflectance);
+        plasticEnergy = mixture(plasticEnergy, covered, bsdf.iridescence.share);
+    }
     vec3 diffuseBaseColour = colour * plastic;
     float averagePlastic = energyAt(average, bsdf.plasticReflectance, bsdf.plasticGrazing);
     bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, averagePlastic);
@@ -93,6 +101,9 @@ BsdfEval evalThin(Bsdf bsdf, vec3 wi) {
     float cosine = dotProduct(bsdf.wo, facet);
     float passed = pdfReflection(facetD(bsdf, facet), bsdf.wo, bsdf.stretchWo);
     float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, mirrored.z, facetStretch(bsdf, mirrored));
-    float kept = 1.0 - schlickReflectance(cosine, vec3(bsdf.plasticReflectance), bsdf.plasticGrazing).x;
+    float reflected = schlickReflectance(cosine, vec3(bsdf.plasticReflectance), bsdf.plasticGrazing).x;
+    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0)
+        reflected = mixture(reflected, iridescentLoss(bsdf.iridescence, cosine), bsdf.iridescence.share);
+    float kept = 1.0 - reflected;
     return BsdfEval(bsdf.thinTint * (passed * lit * kept), bsdf.thinProbability * passed);
 }

@@ -35,7 +35,7 @@ const bool goesOn = false;
 // Textures that say whether a material is looked through, and what it reflects.
 const uint texturesOfClearness = texturesRoughness | texturesMetallic | texturesTransmission |
                                  1u << slotDielectricWeight | 1u << slotDielectricColour |
-                                 (view == viewAlbedo ? texturesBaseColour : 0u);
+                                 (view == viewAlbedo ? texturesBaseColour | texturesIridescence : 0u);
 
 void begin() {
     if (looksThrough)
@@ -157,8 +157,7 @@ bool lookThrough(const Answer answer, const Surface surface,
         scatterThinGlass(answer, surface, material);
     } else {
         float cosine = abs(dotProduct(direction, surface.normal));
-        weaken(isMixture(material) ? schlickReflectance(cosine, material.albedo, 1.0)
-                                                    : mirrorReflectance(material, cosine));
+        weaken(isMixture(material) ? metalReflectance(material, cosine) : mirrorReflectance(material, cosine));
         reflectRay(answer, surface, surface.normal);
     }
     return true;
@@ -185,9 +184,10 @@ void showSurface(const Answer answer, const Surface surface,
         show(vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {
-        MaterialRecord material =
-            hitMaterial(answer.hit, fetchMaterial(materialIndex), texturesBaseColour, surface.position);
-        vec3 colour = isColourless(material) ? vec3(1.0) : material.albedo;
+        uint slots = texturesBaseColour |
+                     ((scattering & scattersAtIridescent) != 0u ? texturesMetallic | texturesIridescence : 0u);
+        MaterialRecord material = hitMaterial(answer.hit, fetchMaterial(materialIndex), slots, surface.position);
+        vec3 colour = albedoForViews(material, abs(dotProduct(request.ray.direction, surface.normal)));
         show(looksThrough ? withoutTiny(path.throughput * colour) : colour);
     }
     if (view == viewShadow && catchesShadows(fetchMaterial(materialIndex)))

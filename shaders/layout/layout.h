@@ -284,6 +284,12 @@ struct MaterialRecord {
     float clearcoatNormalStrength;
     uint lightGroup; // of what it emits: among the layers of light
     uint pad1;
+    // glTF: share of the surface that has an iridescent film, its refractive index, and its thickness in nanometres,
+    // which a texture mixes with the minimum
+    float iridescence;
+    float iridescenceIndex;
+    float iridescenceThickness;
+    float iridescenceThicknessMinimum;
 };
 
 // Flags of MaterialRecord::kindAndSides.
@@ -330,6 +336,7 @@ const uint scattersAtAnisotropic = 64u;
 const uint scattersAtThin = 128u;
 const uint scattersAtCoatNormals = 256u; // a clear coat's normals differ from those below
 const uint scattersAtUnlit = 512u;
+const uint scattersAtIridescent = 1024u; // films
 
 // Any-hit tests: bits of constantAnyHit. A hit does not count
 const uint anyHitCutOut = 1u;  // where the opacity of a surface is below a threshold
@@ -412,7 +419,9 @@ const uint slotDielectricColour = 11u;
 const uint slotSheenColour = 12u;
 const uint slotSheenRoughness = 13u;
 const uint slotAnisotropy = 14u; // red and green: a direction; blue: a factor on the strength
-const uint textureSlotCount = 15u;
+const uint slotIridescence = 15u;
+const uint slotIridescenceThickness = 16u;
+const uint textureSlotCount = 17u;
 
 // Bits of constantTexturing: the slots in which materials of the scene have textures, whether any texels have 8 bits,
 // and what triangles and lookups need beyond one pair of coordinates and repeated images.
@@ -434,6 +443,7 @@ const uint texturesCoordinates = texturesLevels << 6u;
 const uint texturesTransmission = 1u << slotTransmission;
 const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
 const uint texturesAnisotropy = 1u << slotAnisotropy;
+const uint texturesIridescence = (1u << slotIridescence) + (1u << slotIridescenceThickness);
 // Slots that change the material.
 const uint texturesMaterials =
     texturesLevels - 1u - texturesNormal - texturesClearcoatNormal - texturesOpacity;
@@ -891,7 +901,7 @@ static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) =
 static_assert(sizeof(PlaceRecord) == 16);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
-static_assert(sizeof(MaterialRecord) == 192 && offsetof(MaterialRecord, opacity) == 176);
+static_assert(sizeof(MaterialRecord) == 208 && offsetof(MaterialRecord, iridescence) == 192);
 static_assert(sizeof(LookupRow) == 16);
 static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));

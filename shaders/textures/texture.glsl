@@ -243,6 +243,11 @@ MaterialRecord wornMaterial(MaterialRecord material, uint parameter, vec3 texel,
         material.sheenColour *= texel;
     if (isSlot(parameter, slotSheenRoughness))
         material.sheenAlpha = sheenAlphaOf(texel.x * factor);
+    if (isSlot(parameter, slotIridescence))
+        material.iridescence *= texel.x;
+    if (isSlot(parameter, slotIridescenceThickness))
+        material.iridescenceThickness =
+            mixture(material.iridescenceThicknessMinimum, material.iridescenceThickness, texel.x);
     if (isSlot(parameter, slotAnisotropy))
         return anisotropicMaterial(material, texel);
     return material;

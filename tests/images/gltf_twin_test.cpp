@@ -49,7 +49,7 @@ Material gltf() {
 
 /// One of each feature.
 std::vector<Material> materials() {
-    std::vector<Material> all(10, gltf());
+    std::vector<Material> all(13, gltf());
     all[1].metallic = 0.5f;
     all[1].anisotropy = 0.7f;
     all[1].anisotropyRotation = 0.8f;
@@ -70,6 +70,16 @@ std::vector<Material> materials() {
     all[9].sheenColour = glm::vec3(0.4f);
     all[9].transmission = 0.3f;
     all[9].metallic = 0.2f;
+    all[10].iridescence = 1.0f;
+    all[10].metallic = 0.6f;
+    all[10].clearcoat = 0.4f;
+    all[11].iridescence = 0.7f;
+    all[11].iridescenceIndex = 1.8f;
+    all[11].iridescenceThickness = 250.0f;
+    all[11].iridescenceThicknessMinimum = 600.0f;
+    all[11].transmission = 0.8f;
+    all[12] = all[11];
+    all[12].isThin = true;
     return all;
 }
 

@@ -108,6 +108,21 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
         coatRoughness_ = material.clearcoatRoughness;
         sheen_ = material.sheenColour;
         sheenRoughness_ = material.sheenRoughness;
+        if (material.iridescence > 0.0f && material.iridescenceThickness > 0.0f) {
+            const auto film = [&](const Vec &bare, bool isLight) {
+                return &thinFilmOf(material.iridescenceIndex, material.iridescenceThickness, bare, isLight);
+            };
+            filmShare_ = material.iridescence;
+            isInside_ = isInside;
+            metalFilm_ = metal_ > 0.0 ? film(colour_, false) : nullptr;
+            plasticFilm_ = plastic_ > 0.0 ? film(plasticReflectance_, false) : nullptr;
+            const double beyond =
+                isInside ? indexRatio : 1.0 / indexRatio; // the index of the glass to that outside
+            const double ratio = (beyond - 1.0) / (beyond + 1.0);
+            glassFilm_ = glass_ > 0.0 ? film(Vec(ratio * ratio), ratio < 0.0) : nullptr;
+            if (metalFilm_ != nullptr)
+                averageReflectance_ = glm::mix(averageReflectance_, metalFilm_->average(), filmShare_);
+        }
         break;
     }
     case MaterialKind::Diffuse:
@@ -133,6 +148,8 @@ Vec Bsdf::evaluateMetal(const Vec &view, const Vec &light) const {
     if (isConductor_)
         for (glm::length_t i = 0; i < 3; ++i)
             fresnel[i] = conductorFresnel(cosine, index_[i], extinction_[i]);
+    if (metalFilm_ != nullptr)
+        fresnel = glm::mix(fresnel, metalFilm_->at(cosine), filmShare_);
     const double average = averageEnergy(roughness_).white;
     // Kulla and Conty's colour with one more factor F, as what comes back late has met two facets at least: Hill, "A
     // Multi-Faceted Exploration", 2018, part 3.
@@ -147,13 +164,36 @@ Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
     const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
     const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
     const double g = plasticGrazing_;
-    const double share =
-        lost(directionalEnergy(view.z, roughness_).of(r, g), directionalEnergy(light.z, roughness_).of(r, g),
-             averageEnergy(roughness_).of(r, g), light.z);
+    const double share = lost(plasticEnergy(view.z), directionalEnergy(light.z, roughness_).of(r, g),
+                              averageEnergy(roughness_).of(r, g), light.z);
+    Vec fresnel = schlickFresnel(cosine, plasticReflectance_, g);
+    if (plasticFilm_ != nullptr)
+        fresnel = glm::mix(fresnel, plasticFilm_->at(cosine), filmShare_);
     const double opaque = plastic_ > 0.0 ? 1.0 - thin_ / plastic_ : 1.0;
-    return schlickFresnel(cosine, plasticReflectance_, g) *
-               reflectedByFacets(view, light, alphaOf(roughness_)) +
-           colour_ * (share * opaque);
+    return fresnel * reflectedByFacets(view, light, alphaOf(roughness_)) + colour_ * (share * opaque);
+}
+
+/// What facets of plastic keep from what lies below.
+double Bsdf::plasticEnergy(double cosine) const {
+    const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
+    const double bare = directionalEnergy(cosine, roughness_).of(r, plasticGrazing_);
+    return plasticFilm_ != nullptr ? glm::mix(bare, plasticFilm_->energy(cosine, roughness_), filmShare_)
+                                   : bare;
+}
+
+/// A film reflects alike on both sides, if light has the same angle outside.
+Vec Bsdf::glassFresnel(double cosine) const {
+    const double bare = dielectricFresnel(cosine, indexRatio_);
+    if (glassFilm_ == nullptr || bare == 1.0)
+        return Vec(bare);
+    const double outside =
+        isInside_ ? std::sqrt(1.0 - squared(indexRatio_) * (1.0 - cosine * cosine)) : cosine;
+    return glm::mix(Vec(bare), glassFilm_->at(outside), filmShare_);
+}
+
+double Bsdf::glassLoss(double cosine) const {
+    const Vec fresnel = glassFresnel(cosine);
+    return std::max({fresnel.x, fresnel.y, fresnel.z});
 }
 
 /// Walter 2007, equations 20 and 21. Radiance is larger by the square of the index in glass, so that equation 21 has
@@ -163,15 +203,14 @@ Vec Bsdf::evaluateGlass(const Vec &view, const Vec &light) const {
     const double alpha = alphaOf(roughness_);
     const double energy = glassEnergy(view.z, roughness_, indexRatio_);
     if (light.z > 0.0)
-        return Vec(1.0 / energy *
-                   dielectricFresnel(glm::dot(view, glm::normalize(view + light)), indexRatio_) *
-                   reflectedByFacets(view, light, alpha));
+        return glassFresnel(std::min(glm::dot(view, glm::normalize(view + light)), 1.0)) *
+               (reflectedByFacets(view, light, alpha) / energy);
     const Vec facet = facetAcross(view, light, indexRatio_);
     const double toView = glm::dot(view, facet);
     const double toLight = glm::dot(light, facet);
     if (toView <= 0.0 || toLight >= 0.0)
         return Vec(0.0);
-    const double passing = 1.0 - dielectricFresnel(toView, indexRatio_);
+    const double passing = 1.0 - glassLoss(std::min(toView, 1.0));
     return tint_ * (passing / energy * ggx(facet, alpha) * smith(view, light, alpha) * toView * -toLight /
                     view.z * squared(indexRatio_ / (indexRatio_ * toView + toLight)));
 }
@@ -183,10 +222,12 @@ Vec Bsdf::evaluateThin(const Vec &view, const Vec &light) const {
     const double cosine = std::min(glm::dot(view, glm::normalize(view + mirrored)), 1.0);
     const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
     const Energy energy = directionalEnergy(view.z, roughness_);
-    const double reflected = energy.of(r, plasticGrazing_);
-    return colour_ * ((1.0 - schlickFresnel(cosine, Vec(r), plasticGrazing_).x) *
-                      reflectedByFacets(view, mirrored, alphaOf(roughness_)) * (1.0 - reflected) /
-                      (energy.white - reflected));
+    const double reflected = plasticEnergy(view.z);
+    double kept = schlickFresnel(cosine, Vec(r), plasticGrazing_).x;
+    if (plasticFilm_ != nullptr)
+        kept = glm::mix(kept, plasticFilm_->loss(cosine), filmShare_);
+    return colour_ * ((1.0 - kept) * reflectedByFacets(view, mirrored, alphaOf(roughness_)) *
+                      (1.0 - reflected) / (energy.white - reflected));
 }
 
 /// What is left for what lies below the coat.

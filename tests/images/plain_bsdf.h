@@ -9,11 +9,12 @@
 // 2019); and the coat leaves 1 - coat E(view).
 //
 // A material of glTF is the specification's, with the first three of these choices, and with facets of thin glass as of
-// thick.
+// thick. Of a film, the colour below gets what the film does not reflect of the view, and spreads it as without one.
 #pragma once
 
 #include "tests/images/plain_microfacets.h"
 #include "tests/images/plain_textures.h"
+#include "tests/images/plain_thin_film.h"
 
 #include <optional>
 
@@ -42,6 +43,9 @@ class Bsdf {
     [[nodiscard]] Vec evaluatePlastic(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluateGlass(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluateThin(const Vec &view, const Vec &light) const;
+    [[nodiscard]] Vec glassFresnel(double cosine) const;
+    [[nodiscard]] double glassLoss(double cosine) const;
+    [[nodiscard]] double plasticEnergy(double cosine) const;
     [[nodiscard]] Vec underSheenAndCoat(const Vec &view, const Vec &light, const Vec &below) const;
     [[nodiscard]] double coatShare(const Vec &view) const;
 
@@ -55,6 +59,11 @@ class Bsdf {
     bool isGltf_ = false;
     Vec sheen_{0.0};
     double sheenRoughness_ = 0.0;
+    double filmShare_ = 0.0; ///< how much of the surface has a film
+    const ThinFilm *metalFilm_ = nullptr;
+    const ThinFilm *plasticFilm_ = nullptr;
+    const ThinFilm *glassFilm_ = nullptr;
+    bool isInside_ = false; ///< of glass
 
     bool isConductor_ = false; ///< the metal has a complex refractive index, else a colour
     Vec index_{0.0};

@@ -12,6 +12,10 @@ namespace {
 using testing::Comparison;
 using testing::expectPlainRadiance;
 
+/// Of what a film reflects: renderers take fewer facets of plastic than the quadrature, and no more than six
+/// reflections within the film.
+constexpr double filmAllowance = 6e-3;
+
 /// A material to look at.
 struct Look {
     std::string name;
@@ -74,6 +78,31 @@ void addGltfLooks(std::vector<Look> &all) {
     all.back().material.transmission = 0.8f;
     all.back().material.isThin = true;
     all.back().maxDepth = 3;
+    all.push_back(gltf("GltfPearl", 0.35f));
+    all.back().material.iridescence = 1.0f;
+    all.back().material.iridescenceIndex = 1.7f;
+    all.back().material.iridescenceThickness = 320.0f;
+    all.back().allowance = filmAllowance;
+    all.push_back(gltf("GltfTemperedSteel", 0.5f));
+    all.back().material.metallic = 1.0f;
+    all.back().material.iridescence = 0.8f;
+    all.back().material.iridescenceIndex = 2.0f;
+    all.back().material.iridescenceThickness = 180.0f;
+    all.back().allowance = filmAllowance;
+    all.push_back(gltf("GltfSoap", 0.3f));
+    all.back().material.transmission = 0.9f;
+    all.back().material.isThin = true;
+    all.back().material.iridescence = 1.0f;
+    all.back().material.iridescenceThickness = 500.0f;
+    all.back().maxDepth = 3;
+    all.back().allowance = filmAllowance;
+    all.push_back(gltf("GltfCoatedGlass", 0.3f));
+    all.back().material.transmission = 0.9f;
+    all.back().material.iridescence = 1.0f;
+    all.back().material.iridescenceIndex = 1.8f;
+    all.back().material.iridescenceThickness = 400.0f;
+    all.back().maxDepth = 4;
+    all.back().allowance = filmAllowance;
     all.push_back(gltf("GltfGlass", 0.3f));
     all.back().material.transmission = 0.7f;
     all.back().material.absorption = {0.1f, 0.2f, 0.4f};

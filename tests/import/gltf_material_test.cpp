@@ -123,6 +123,30 @@ TEST_F(GltfMaterial, ReadsTheExtensionsOfSurfaces) {
     EXPECT_TRUE(material.isUnlit);
 }
 
+TEST_F(GltfMaterial, ReadsIridescentFilms) {
+    const Material material = read(R"({"extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 0.75,
+        "iridescenceTexture": {"index": 0}, "iridescenceIor": 1.8, "iridescenceThicknessMinimum": 500,
+        "iridescenceThicknessMaximum": 200, "iridescenceThicknessTexture": {"index": 0}}}})");
+    EXPECT_EQ(material.iridescence, 0.75f);
+    EXPECT_EQ(material.iridescenceIndex, 1.8f);
+    EXPECT_EQ(material.iridescenceThicknessMinimum, 500.0f);
+    EXPECT_EQ(material.iridescenceThickness, 200.0f);
+    EXPECT_EQ(material.textures[layout::slotIridescence]->channel, Channel::Red);
+    EXPECT_EQ(material.textures[layout::slotIridescenceThickness]->channel, Channel::Green);
+    const Material usual = read(R"({"extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 1}}})");
+    EXPECT_EQ(usual.iridescenceIndex, 1.3f);
+    EXPECT_EQ(usual.iridescenceThicknessMinimum, 100.0f);
+    EXPECT_EQ(usual.iridescenceThickness, 400.0f);
+    EXPECT_EQ(scatteringOfGltf(usual), layout::scattersAtGltf | layout::scattersAtIridescent);
+    const Material none = read(R"({"extensions": {"KHR_materials_iridescence": {
+        "iridescenceTexture": {"index": 0}, "iridescenceThicknessTexture": {"index": 0}}}})");
+    EXPECT_FALSE(none.textures[layout::slotIridescence] || none.textures[layout::slotIridescenceThickness]);
+    EXPECT_EQ(scatteringOfGltf(none), layout::scattersAtGltf);
+    GltfMaker maker = makerOf(R"({"extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 1}}})");
+    maker.json["extensionsUsed"] = maker.json["extensionsRequired"] = {"KHR_materials_iridescence"};
+    EXPECT_TRUE(load(maker).meshReports.at(0).warnings.empty());
+}
+
 TEST_F(GltfMaterial, OfRefractiveIndexZeroReflectsEverythingHeadOn) {
     const Material material = read(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})");
     const double n = static_cast<double>(material.refractiveIndex);

@@ -136,6 +136,8 @@ TEST_F(GltfTolerance, FactorsAreClamped) {
         "baseColorFactor": [1.5, 0.5, 0, 1]}, "extensions": {"KHR_materials_ior": {"ior": 0.99999},
         "KHR_materials_clearcoat": {"clearcoatFactor": 3}, "KHR_materials_sheen": {"sheenColorFactor": [0, 0, 9]},
         "KHR_materials_transmission": {"transmissionFactor": 1.1},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1.5, "iridescenceIor": 0.8,
+            "iridescenceThicknessMaximum": -3, "iridescenceThicknessMinimum": 1e9},
         "KHR_materials_specular": {"specularFactor": -2, "specularColorFactor": [-1, 2, 3]},
         "KHR_materials_emissive_strength": {"emissiveStrength": 4}}})")};
     const LoadedScene loaded = load(maker);
@@ -149,11 +151,16 @@ TEST_F(GltfTolerance, FactorsAreClamped) {
     EXPECT_EQ(material.clearcoat, 1.0f);
     EXPECT_EQ(material.sheenColour, glm::vec3(0, 0, 1));
     EXPECT_EQ(material.transmission, 1.0f);
+    EXPECT_EQ(material.iridescence, 1.0f);
+    EXPECT_EQ(material.iridescenceIndex, 1.0f);
+    EXPECT_EQ(material.iridescenceThickness, 0.0f);
+    EXPECT_EQ(material.iridescenceThicknessMinimum, 1e5f);
+    EXPECT_EQ(scatteringOfGltf(material) & layout::scattersAtIridescent, 0u);
     EXPECT_EQ(material.dielectricWeight, 0.0f);
     EXPECT_EQ(material.dielectricColour, glm::vec3(0, 2, 3));
     expectWarning(loaded, {"/materials/0/pbrMetallicRoughness/baseColorFactor/0: 1.5 counts as 1; "
                            "allowed: from 0 to 1",
-                           " (and 10 more)"});
+                           " (and 14 more)"});
     maker.json["materials"][0]["emissiveFactor"] = {1, 1};
     EXPECT_TRUE(refusal(maker).starts_with("/materials/0/emissiveFactor: ")) << refusal(maker);
 }

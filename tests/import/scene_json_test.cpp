@@ -94,6 +94,10 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(velvet.clearcoatNormalStrength, 3.0f);
     EXPECT_TRUE(velvet.isThin && velvet.isUnlit && velvet.twoSided);
     EXPECT_EQ(velvet.alphaCutoff, 0.25f);
+    EXPECT_EQ(velvet.iridescence, 0.375f);
+    EXPECT_EQ(velvet.iridescenceIndex, 1.75f);
+    EXPECT_EQ(velvet.iridescenceThickness, 250.0f);
+    EXPECT_EQ(velvet.iridescenceThicknessMinimum, 700.0f);
     EXPECT_TRUE(velvet.textures[layout::slotAnisotropy] && velvet.textures[layout::slotClearcoatNormal]);
     ASSERT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));

@@ -286,10 +286,21 @@ const std::vector<InputRow> inputRows{
     {"float eta",
      by([](S &s) { return s.draw.chance(2) ? 1.0f / refractiveIndex(s.draw) : refractiveIndex(s.draw); })},
     {"float index, float refractiveIndex", by(refractiveIndex)},
+    {"float iridescence, float film", by([](S &s) { return 0.8f * share(s.draw); })},
+    {"float bare", by([](S &s) { return 2.0f * share(s.draw) - 1.0f; })},
+    {"float iridescenceIndex", by([](S &s) { return 1.0f + 2.0f * share(s.draw); })},
+    {"float iridescenceThickness, float iridescenceThicknessMinimum",
+     by([](S &s) { return 1500.0f * share(s.draw); })},
+    {"float waveCosine.turns", by([](S &s) { return 1000.0f * share(s.draw) * share(s.draw); })},
+    {"vec3 amplitude", by([](S &s) { return 2.0f * colour(s.draw) - 1.0f; })},
+    {"vec4 colourOfWaves.waves",
+     by([](S &s) { return vec4(s.draw.direction(), 2.0f * share(s.draw) - 1.0f); })},
+    {"uint gaussNode.i", by([](S &s) { return s.draw.index(4); })},
     {"float falloffScale",
      by([](S &s) { return (s.draw.chance(2) ? -1.0f : 1.0f) / (s.draw.unit() + 1e-6f); })},
     {"vec3 colour, vec3 texel, vec3 average, vec3 metalAverage, vec3 albedo, vec3 segmentTint, "
-     "vec3 averageReflectance, vec3 dielectricColour, vec3 sheenColour, vec3 schlickReflectance.normal, "
+     "vec3 averageReflectance, vec3 dielectricColour, vec3 sheenColour, vec3 dielectric, vec3 reflectance, "
+     "vec3 schlickReflectance.normal, "
      "vec3 LookupRow.value",
      by(colour)},
     {"vec3 emission, vec3 index, vec3 extinction, vec3 conductorIndex, vec3 conductorExtinction, vec3 "
@@ -334,7 +345,7 @@ const std::vector<InputRow> inputRows{
      by([](S &s) { return s.draw.direction(); })},
     {"vec3 tangent, vec3 alongU, vec3 alongV, vec3 placedNormal.normal",
      by([](S &s) { return s.draw.chance(8) ? vec3(0.0f) : s.draw.direction(); })},
-    {"vec3 m, vec3 w, vec3 wo", by(above)},
+    {"vec3 m, vec3 w, vec3 wo, vec3 facet", by(above)},
     {"vec3 wi", by([](S &s) { return s.draw.chance(3) ? -above(s.draw) : above(s.draw); })},
     {"vec3 facing, vec3 geometricNormal", by([](S &s) { return against(s.direction, s.draw); })},
     {"Frame", by([](S &s) { return makeOrthonormalBasis(s.draw.direction()); })},
@@ -378,6 +389,13 @@ const std::vector<InputRow> inputRows{
      })},
     {"Bsdf", by([](S &s) { return s.bsdf(); })},
     {"SineCosine", by([](S &s) { return sineCosine(s.draw.unit()); })},
+    {"Iridescence", by([](S &s) {
+         const MaterialRecord<float> made(s.some(s.packed.materials));
+         return s.draw.chance(2) ? filmOnGlass<float>(made, 0.5f + s.draw.unit(), s.draw.chance(2))
+                                 : filmOnOpaque<float>(made, share(s.draw), colour(s.draw));
+     })},
+    {"DielectricFresnel",
+     by([](S &s) { return fresnelDielectric<float>(-above(s.draw), above(s.draw), 0.5f + s.draw.unit()); })},
     {"SheenFit", by([](S &s) { return sheenFit(alpha(s.draw)); })},
     {"EmitterRecord sampleProfiled.emitter",
      by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.some(s.profiledEmitters)]; })},

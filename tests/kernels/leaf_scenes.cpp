@@ -91,6 +91,10 @@ void addMaterials(Scene &scene, Draw &draw) {
             material.sheenRoughness = draw.unit();
             material.anisotropy = draw.chance(3) ? 0.0f : draw.unit();
             material.anisotropyRotation = draw.unit();
+            material.iridescence = round == 2 || round == 3 ? 0.75f : draw.chance(2) ? 0.0f : draw.unit();
+            material.iridescenceIndex = 1.0f + draw.unit();
+            material.iridescenceThickness = draw.chance(8) ? 0.0f : 900.0f * draw.unit();
+            material.iridescenceThicknessMinimum = 900.0f * draw.unit();
         }
 }
 

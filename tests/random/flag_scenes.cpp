@@ -83,6 +83,8 @@ TestScene textured(std::uint32_t slot) {
         material.sheenColour = {0.2f, 0.4f, 0.3f};
         material.sheenRoughness = 0.5f;
         material.anisotropy = 0.5f;
+        material.iridescence = 0.8f;
+        material.iridescenceIndex = 1.8f;
     }
     scene.textures = {image()};
     material.textures[slot] = TextureUse{};
@@ -148,6 +150,12 @@ void addScattering(Rows &rows) {
         [](TestScene &, Material &m) {
             m.metallic = 1.0f;
             m.anisotropy = 0.9f;
+        });
+    add("scattersAtIridescent", scattersAtIridescent, scattersAtGltf, MaterialKind::Gltf,
+        [](TestScene &, Material &m) {
+            m.metallic = 1.0f;
+            m.iridescence = 1.0f;
+            m.iridescenceIndex = 2.0f;
         });
     const auto makeThin = [](TestScene &scene, Material &m) {
         m.transmission = 0.9f;

@@ -150,6 +150,15 @@ class GlbDraws {
             maybe(it, "anisotropyRotation", 0.5, [&] { return json(draws_.uniform(-3, 3)); });
             maybe(it, "anisotropyTexture", 0.3, texture);
         });
+        extension("KHR_materials_iridescence", 0.2, [&](json &it) {
+            const auto nanometres = [&] { return json(draws_.uniform(0.0, 900.0)); };
+            maybe(it, "iridescenceFactor", 0.9, fraction);
+            maybe(it, "iridescenceIor", 0.5, [&] { return json(draws_.uniform(1.0, 3.0)); });
+            maybe(it, "iridescenceThicknessMinimum", 0.5, nanometres);
+            maybe(it, "iridescenceThicknessMaximum", 0.5, nanometres);
+            maybe(it, "iridescenceTexture", 0.2, texture);
+            maybe(it, "iridescenceThicknessTexture", 0.3, texture);
+        });
         extension("KHR_materials_pbrSpecularGlossiness", 0.1, [&](json &it) {
             maybe(it, "specularFactor", 0.5, colour);
             maybe(it, "glossinessFactor", 0.5, fraction);

@@ -42,6 +42,7 @@ class MaterialReader {
         readClearcoat();
         readSheen();
         readAnisotropy();
+        readIridescence();
         material_.isUnlit = extensionOf(object_, "KHR_materials_unlit").has_value();
         const bool isDoubleSided = object_.boolean("doubleSided", false);
         material_.twoSided = isDoubleSided;
@@ -252,6 +253,23 @@ class MaterialReader {
         material_.anisotropyRotation = number(*anisotropy, "anisotropyRotation", {-1e6, 1e6}, 0.0);
         if (material_.anisotropy > 0.0f)
             wear(layout::slotAnisotropy, *anisotropy, "anisotropyTexture", Channel::Blue);
+    }
+
+    void readIridescence() {
+        const auto film = extensionOf(object_, "KHR_materials_iridescence");
+        if (!film)
+            return;
+        const auto index = number(*film, "iridescenceIor", limits::refractiveIndex, 1.3);
+        const auto least = number(*film, "iridescenceThicknessMinimum", limits::filmThickness, 100.0);
+        const auto most = number(*film, "iridescenceThicknessMaximum", limits::filmThickness, 400.0);
+        material_.iridescence = number(*film, "iridescenceFactor", limits::fraction, 0.0);
+        if (material_.iridescence == 0.0f)
+            return;
+        material_.iridescenceIndex = index;
+        material_.iridescenceThicknessMinimum = least;
+        material_.iridescenceThickness = most;
+        wear(layout::slotIridescence, *film, "iridescenceTexture", Channel::Red);
+        wear(layout::slotIridescenceThickness, *film, "iridescenceThicknessTexture", Channel::Green);
     }
 
     const Document &document_;
