@@ -69,7 +69,7 @@ SoakVerdict soak(Backend &backend, const std::optional<gpu::DeviceInfo> &device,
         if (isWanted(load.name))
             running.push_back(newFilmLoad(soak, loads, load, device && !device->isSoftware(), backend));
     for (const gpu::WordWork work : {gpu::WordWork::Memory, gpu::WordWork::Arithmetic})
-        if (device && isWanted(nameOf(work)))
+        if (device && isWanted(nameOfWork(work)))
             running.push_back(newWordLoad(soak, work, *device));
     const std::optional<double> given = request.limit.secondsLeft();
     const double slice =

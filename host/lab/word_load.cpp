@@ -6,7 +6,7 @@
 
 namespace hyalite::core {
 
-std::string_view nameOf(gpu::WordWork work) {
+std::string_view nameOfWork(gpu::WordWork work) {
     return work == gpu::WordWork::Memory ? memoryLoad : arithmeticLoad;
 }
 
@@ -15,7 +15,8 @@ namespace {
 class WordLoad : public RunningLoad {
   public:
     WordLoad(Soak &soak, gpu::WordWork work, const gpu::DeviceInfo &device)
-        : RunningLoad(soak, std::string(nameOf(work)), work == gpu::WordWork::Memory ? "bytes" : "rounds"),
+        : RunningLoad(soak, std::string(nameOfWork(work)),
+                      work == gpu::WordWork::Memory ? "bytes" : "rounds"),
           work_(work), device_(device) {}
 
   protected:

@@ -9,7 +9,7 @@
 
 namespace hyalite::core {
 
-[[nodiscard]] std::string_view nameOf(gpu::WordWork work);
+[[nodiscard]] std::string_view nameOfWork(gpu::WordWork work);
 
 [[nodiscard]] std::unique_ptr<RunningLoad> newWordLoad(Soak &soak, gpu::WordWork work,
                                                        const gpu::DeviceInfo &device);

@@ -17,7 +17,7 @@ struct NoCounter {
     void followShadowRay() {}
     void lookAtLight() {}
     void scatter(Lobe) {}
-    [[nodiscard]] ShadingCounts *readsOf() const { return nullptr; }
+    [[nodiscard]] static ShadingCounts *readsOf() { return nullptr; }
 };
 
 struct WorkCounter {
@@ -43,7 +43,7 @@ struct WorkCounter {
     void followShadowRay() {}
     void lookAtLight() {}
     void scatter(Lobe) {}
-    [[nodiscard]] ShadingCounts *readsOf() const { return nullptr; }
+    [[nodiscard]] static ShadingCounts *readsOf() { return nullptr; }
 };
 
 } // namespace hyalite::core::reference

@@ -15,8 +15,8 @@ namespace hyalite::core {
 
 struct LightProfile {
     std::string name; ///< for messages: the file it came from
-    std::vector<double>
-        gammas; ///< degrees in [0, 180], ascending, two at least; it is dark before and behind them
+    /// Degrees in [0, 180], ascending, two at least. It is dark before and behind them.
+    std::vector<double> gammas;
     /// Degrees of C, ascending from 0 to 360, both included; or only one: the lamp is the same all around.
     std::vector<double> planes;
     /// Of each plane in turn, at each gamma: intensity as a share of the greatest one, in [0, 1].

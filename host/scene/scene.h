@@ -52,9 +52,8 @@ struct Light {
     /// irradiance of a surface that faces it.
     glm::dvec3 power{0.0};
     LightKind kind = LightKind::Point;
-    glm::dvec3 direction{
-        0.0, -1.0,
-        0.0}; ///< Spot, Directional, and with a profile: in which light leaves; any length but zero
+    /// Spot, Directional, and with a profile: in which light leaves; any length but zero.
+    glm::dvec3 direction{0.0, -1.0, 0.0};
     double angleDegrees = 30.0;       ///< Spot: from its axis to the dark; in (0, 180]
     double blend = 0.2;               ///< Spot: share of the angle in which it fades, from 0 to 1
     SpotFade fade = SpotFade::Smooth; ///< Spot
@@ -62,8 +61,8 @@ struct Light {
     /// Point, Spot: index in Scene::profiles. The radiant intensity above is then that of its greatest share; a point
     /// light has a direction, too.
     std::optional<std::uint32_t> profile{};
-    glm::dvec3 c0{1.0, 0.0,
-                  0.0}; ///< with a profile: where C is 0; any length but zero, not parallel to `direction`
+    /// With a profile: where C is 0; any length but zero, not parallel to `direction`.
+    glm::dvec3 c0{1.0, 0.0, 0.0};
 };
 
 /// Light from all around: an image by longitude and latitude, whose middle is -z, whose top row is +y.
