@@ -190,12 +190,11 @@ TEST(Ies, FaultsAreToldWithTheirLine) {
         EXPECT_NE(iesRefusal(text).find(part), std::string::npos) << text << "\n" << iesRefusal(text);
 }
 
-TEST(Ies, EveryShorterFileIsRefusedOrReadAsItIs) {
+TEST(Ies, EveryShorterFileIsRefused) {
     const std::string text = ofPlanes({0, 45, 90});
-    for (std::size_t length = 0; length < text.size(); ++length) {
+    for (std::size_t length = 0; length < text.size() - 3; ++length) {
         const std::string found = iesRefusal(text.substr(0, length));
-        if (length < text.size() - 3)
-            EXPECT_TRUE(found.starts_with("lamp.ies:")) << length << found;
+        EXPECT_TRUE(found.starts_with("lamp.ies:")) << length << found;
     }
 }
 
