@@ -46,7 +46,7 @@ def outcome(renderer, scene, layers, settings):
 
 @pytest.mark.parametrize("source", SCENES, ids=lambda source: pathlib.Path(source).stem)
 def test_a_view_after_others_is_that_of_a_new_renderer(renderer, source):
-    draw = random.Random(source)
+    draw = random.Random(pathlib.Path(source).stem)  # the same in every folder
     scene = hyalite.Scene(source)  # which the renderer keeps
     pictures = 0
     for _ in range(8):
