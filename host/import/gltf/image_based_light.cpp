@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -38,52 +39,61 @@ constexpr std::array<CubeFace, faceCount> cubeFaces{{{{1, 0, 0}, {0, 0, 1}, {0, 
                                                      {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}},
                                                      {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}}}};
 
-/// Linear radiance of an image of RGBD: sRGB over alpha. Images without alpha have radiance up to 1.
-Image decoded(const Texture &texture) {
-    std::array<float, 256> linear{};
-    for (std::size_t level = 0; level < linear.size(); ++level)
-        linear[level] = static_cast<float>(srgbDecoded(static_cast<double>(level) / 255.0));
-    Image image(texture.width, texture.height);
-    for (std::size_t i = 0; i < texture.levels.size(); ++i) {
-        const std::uint32_t levels = texture.levels[i];
-        const auto divisor = static_cast<float>(std::max(levels >> 24u, 1u)) / 255.0f;
-        image.pixels()[i] =
-            glm::vec3(linear[levels & 255u], linear[levels >> 8u & 255u], linear[levels >> 16u & 255u]) /
-            divisor;
+/// The textures of a cube. Decoded they would take three times the memory.
+class Cube {
+  public:
+    Cube() {
+        for (std::size_t level = 0; level < linear_.size(); ++level)
+            linear_[level] = static_cast<float>(srgbDecoded(static_cast<double>(level) / 255.0));
     }
-    return image;
-}
+    /// The size in pixels of the smallest face.
+    [[nodiscard]] int smallestSide() const {
+        int side = std::numeric_limits<int>::max();
+        for (const std::uint32_t face : faces)
+            side = std::min(side, library.at(face).width);
+        return side;
+    }
+    [[nodiscard]] glm::dvec3 radianceFrom(const glm::dvec3 &direction) const {
+        const auto along = [&](const CubeFace &face) { return glm::dot(face.forward, direction); };
+        const auto face = std::ranges::max_element(cubeFaces, {}, along);
+        return bilinear(library.at(faces[static_cast<std::size_t>(face - cubeFaces.begin())]),
+                        0.5 + 0.5 * glm::dot(face->right, direction) / along(*face),
+                        0.5 + 0.5 * glm::dot(face->down, direction) / along(*face));
+    }
 
-using Cube = std::array<Image, faceCount>;
+    TextureLibrary library; ///< of no scene: they are no textures
+    std::array<std::uint32_t, faceCount> faces{};
 
-/// Between four pixels of a face; `x` and `y` from 0 to 1. At the rim of a face the last pixels hold.
-glm::dvec3 bilinear(const Image &face, double x, double y) {
-    const auto at = [&](int column, int row) {
-        column = std::clamp(column, 0, face.width() - 1);
-        row = std::clamp(row, 0, face.height() - 1);
-        return glm::dvec3(face.pixels()[static_cast<std::size_t>(row) * face.width() + column]);
-    };
-    const double u = x * face.width() - 0.5;
-    const double v = y * face.height() - 0.5;
-    const int column = static_cast<int>(std::floor(u));
-    const int row = static_cast<int>(std::floor(v));
-    return glm::mix(glm::mix(at(column, row), at(column + 1, row), u - column),
-                    glm::mix(at(column, row + 1), at(column + 1, row + 1), u - column), v - row);
-}
+  private:
+    /// Between four pixels of a face; `x` and `y` from 0 to 1. At the rim of a face the last pixels hold.
+    [[nodiscard]] glm::dvec3 bilinear(const Texture &face, double x, double y) const {
+        const auto at = [&](int column, int row) {
+            column = std::clamp(column, 0, face.width - 1);
+            row = std::clamp(row, 0, face.height - 1);
+            return decoded(face.levels[static_cast<std::size_t>(row) * static_cast<std::size_t>(face.width) +
+                                       static_cast<std::size_t>(column)]);
+        };
+        const double u = x * face.width - 0.5;
+        const double v = y * face.height - 0.5;
+        const int column = static_cast<int>(std::floor(u));
+        const int row = static_cast<int>(std::floor(v));
+        return glm::mix(glm::mix(at(column, row), at(column + 1, row), u - column),
+                        glm::mix(at(column, row + 1), at(column + 1, row + 1), u - column), v - row);
+    }
+    /// Linear radiance of a pixel of RGBD: sRGB over alpha. Images without alpha have radiance up to 1.
+    [[nodiscard]] glm::dvec3 decoded(std::uint32_t levels) const {
+        const auto divisor = static_cast<float>(std::max(levels >> 24u, 1u)) / 255.0f;
+        return glm::vec3(linear_[levels & 255u], linear_[levels >> 8u & 255u],
+                         linear_[levels >> 16u & 255u]) /
+               divisor;
+    }
 
-glm::dvec3 radianceFrom(const Cube &cube, const glm::dvec3 &direction) {
-    const auto along = [&](const CubeFace &face) { return glm::dot(face.forward, direction); };
-    const auto face = std::ranges::max_element(cubeFaces, {}, along);
-    return bilinear(cube[static_cast<std::size_t>(face - cubeFaces.begin())],
-                    0.5 + 0.5 * glm::dot(face->right, direction) / along(*face),
-                    0.5 + 0.5 * glm::dot(face->down, direction) / along(*face));
-}
+    std::array<float, 256> linear_{};
+};
 
 /// By longitude and latitude: four directions a pixel, of which the cube has about one pixel each.
 Image unrolled(const Cube &cube, const glm::dmat3 &rotation, double scale) {
-    int width = maxWidth;
-    for (const Image &face : cube)
-        width = std::min(width, 4 * face.width());
+    const int width = 4 * std::min(cube.smallestSide(), maxWidth / 4);
     const int height = width / 2;
     const glm::dmat3 fromWorld = glm::transpose(rotation);
     Image image(width, height);
@@ -94,9 +104,9 @@ Image unrolled(const Cube &cube, const glm::dmat3 &rotation, double scale) {
             for (const auto &[dx, dy] : {std::pair{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}}) {
                 const double polar = std::numbers::pi * (y + dy) / height;
                 const double azimuth = -2.0 * std::numbers::pi * (x + dx) / width; // from +z towards +x
-                sum += radianceFrom(cube, fromWorld * glm::dvec3(std::sin(polar) * std::sin(azimuth),
-                                                                 std::cos(polar),
-                                                                 std::sin(polar) * std::cos(azimuth)));
+                sum += cube.radianceFrom(fromWorld * glm::dvec3(std::sin(polar) * std::sin(azimuth),
+                                                                std::cos(polar),
+                                                                std::sin(polar) * std::cos(azimuth)));
             }
             *pixel = glm::vec3(sum * (scale / 4.0));
         }
@@ -112,18 +122,18 @@ std::optional<Cube> readCube(Buffers &buffers, const FileAccess &access, const J
     const JsonNode faces = cubes[0];
     if (!faces.value->is_array() || faces.value->size() != faceCount)
         faces.refuse("the six images of a cube");
-    TextureLibrary library; // of no scene: they are no textures
-    TextureReader reader(buffers, access, library);
     Cube cube;
+    TextureReader reader(buffers, access, cube.library);
     const Elements images{faces};
     for (std::size_t i = 0; i < faceCount; ++i) {
         const std::optional<std::uint32_t> image = reader.readImage(images[i]);
         if (!image)
             return std::nullopt;
-        cube[i] = decoded(library.at(*image));
-        if (cube[i].width() != cube[i].height())
-            images[i].fail(fmt::format("the image has {}x{} pixels; allowed: a square", cube[i].width(),
-                                       cube[i].height()));
+        cube.faces[i] = *image;
+        const Texture &face = cube.library.at(*image);
+        if (face.width != face.height)
+            images[i].fail(
+                fmt::format("the image has {}x{} pixels; allowed: a square", face.width, face.height));
     }
     return cube;
 }
