@@ -60,6 +60,16 @@ double srgbDecoded(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
+const std::array<float, 256> &srgbDecodedLevels() {
+    static const std::array<float, 256> linear = [] {
+        std::array<float, 256> values{};
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<float>(srgbDecoded(static_cast<double>(i) / 255.0));
+        return values;
+    }();
+    return linear;
+}
+
 glm::dvec3 displayed(const glm::dvec3 &radiance, ToneCurve curve) {
     const glm::dvec3 c(bounded(radiance.x), bounded(radiance.y), bounded(radiance.z));
     const auto gamma = [](double linear) {

@@ -5,12 +5,16 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+
 namespace hyalite::core {
 
 /// The transfer function of IEC 61966-2-1, from linear light in [0, 1] to the display encoding.
 [[nodiscard]] double srgbEncoded(double linear);
 /// Its inverse, from [0, 1] to linear light; by pow(), for tables of floats.
 [[nodiscard]] double srgbDecoded(double encoded);
+/// The same of the 8-bit levels 0 to 255.
+[[nodiscard]] const std::array<float, 256> &srgbDecodedLevels();
 
 /// The display encoding, in [0, 1], of exposed radiance. Negative values and NaN count as 0; larger values than 2^60 as
 /// 2^60.

@@ -24,9 +24,7 @@ constexpr std::size_t exrHeadBytes = 4;
 
 /// The colours of an 8-bit image in sRGB.
 Image linearised(const Texture &texture) {
-    std::array<float, 256> table{};
-    for (std::size_t level = 0; level < table.size(); ++level)
-        table[level] = static_cast<float>(srgbDecoded(static_cast<double>(level) / 255.0));
+    const std::array<float, 256> &table = srgbDecodedLevels();
     Image image(texture.width, texture.height);
     for (std::size_t i = 0; i < texture.levels.size(); ++i) {
         const std::uint32_t levels = texture.levels[i];

@@ -100,17 +100,6 @@ RowPlan planRow(const PlyElement &element) {
     return plan;
 }
 
-/// Linear light of 8-bit sRGB.
-const std::array<float, 256> &srgbTable() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> values{};
-        for (std::size_t i = 0; i < values.size(); ++i)
-            values[i] = static_cast<float>(srgbDecoded(static_cast<double>(i) / 255.0));
-        return values;
-    }();
-    return table;
-}
-
 /// Of a colour or alpha. meshio declares bytes as int8: those below 0 are above 127.
 double wrapped(double value, const RowPlan &plan) {
     return plan.isSrgb && plan.colourScale == 1.0 / 255.0 && value < 0.0 ? value + 256.0 : value;
@@ -122,7 +111,7 @@ float linearColour(double found, const RowPlan &plan) {
     if (!plan.isSrgb)
         return share > 0.0 ? static_cast<float>(share) : 0.0f; // and NaN is 0
     if (plan.colourScale == 1.0 / 255.0)
-        return srgbTable()[static_cast<std::size_t>(std::clamp(value, 0.0, 255.0))];
+        return srgbDecodedLevels()[static_cast<std::size_t>(std::clamp(value, 0.0, 255.0))];
     return static_cast<float>(srgbDecoded(share));
 }
 

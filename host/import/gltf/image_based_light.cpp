@@ -1,6 +1,7 @@
 #include "host/import/gltf/image_based_light.h"
 
 #include "host/image/tone_curve.h"
+#include "host/import/gltf/lights.h"
 #include "host/import/gltf/nodes.h"
 #include "host/import/gltf/textures.h"
 #include "host/import/texture_library.h"
@@ -42,10 +43,6 @@ constexpr std::array<CubeFace, faceCount> cubeFaces{{{{1, 0, 0}, {0, 0, 1}, {0, 
 /// The textures of a cube. Decoded they would take three times the memory.
 class Cube {
   public:
-    Cube() {
-        for (std::size_t level = 0; level < linear_.size(); ++level)
-            linear_[level] = static_cast<float>(srgbDecoded(static_cast<double>(level) / 255.0));
-    }
     /// The size in pixels of the smallest face.
     [[nodiscard]] int smallestSide() const {
         int side = std::numeric_limits<int>::max();
@@ -88,7 +85,7 @@ class Cube {
                divisor;
     }
 
-    std::array<float, 256> linear_{};
+    const std::array<float, 256> &linear_ = srgbDecodedLevels();
 };
 
 /// By longitude and latitude: four directions a pixel, of which the cube has about one pixel each.
@@ -147,13 +144,7 @@ std::optional<Image> readImageBasedLight(Buffers &buffers, const FileAccess &acc
     if (!use)
         return std::nullopt;
     const Document &document = buffers.document();
-    const JsonNode index = use->at("light");
-    const std::optional<JsonObject> extension = extensionOf(document.top(), name);
-    const Elements lights = extension ? elementsOf(*extension, "lights") : Elements();
-    if (lights.empty())
-        index.refuse("an index of /extensions/EXT_lights_image_based/lights, of which there are none");
-    const JsonObject light(
-        lights[static_cast<std::size_t>(index.wholeNumber({0.0, static_cast<double>(lights.size() - 1)}))]);
+    const JsonObject light(lightOf(document, *use, name));
     const double intensity = clampedNumber(document, light, "intensity", limits::environmentScale, 1.0);
     const std::optional<JsonNode> rotation = light.find("rotation");
     const glm::dmat3 turned = rotation ? rotationOf(readQuaternion(document, *rotation)) : glm::dmat3(1.0);

@@ -33,16 +33,6 @@ void readSpot(const Document &document, const JsonObject &object, Light &light) 
     light.fade = SpotFade::Square;
 }
 
-/// The light of the extension that the use of it in a node refers to.
-JsonNode lightOf(const Document &document, const JsonObject &use, std::string_view name) {
-    const JsonNode index = use.at("light");
-    const std::optional<JsonObject> extension = extensionOf(document.top(), name);
-    const Elements lights = extension ? elementsOf(*extension, "lights") : Elements();
-    if (lights.empty())
-        index.refuse(fmt::format("an index of /extensions/{}/lights, of which there are none", name));
-    return lights[static_cast<std::size_t>(index.wholeNumber({0.0, static_cast<double>(lights.size() - 1)}))];
-}
-
 glm::dvec3 colourOf(const Document &document, const JsonObject &object, const Interval &allowed) {
     const std::optional<JsonNode> colour = object.find("color");
     if (!colour)
@@ -59,6 +49,15 @@ void addLossOfDirection(const Document &document, const JsonNode &light) {
 }
 
 } // namespace
+
+JsonNode lightOf(const Document &document, const JsonObject &use, std::string_view name) {
+    const JsonNode index = use.at("light");
+    const std::optional<JsonObject> extension = extensionOf(document.top(), name);
+    const Elements lights = extension ? elementsOf(*extension, "lights") : Elements();
+    if (lights.empty())
+        index.refuse(fmt::format("an index of /extensions/{}/lights, of which there are none", name));
+    return lights[static_cast<std::size_t>(index.wholeNumber({0.0, static_cast<double>(lights.size() - 1)}))];
+}
 
 std::optional<Light> readLight(const Document &document, const JsonObject &node,
                                const glm::dmat4x3 &toWorld) {

@@ -13,9 +13,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyalite::core::gltf {
+
+/// The element of the `lights` of the extension `name` that its use, in a node or a scene, refers to. Throws
+/// Error{BadInput} for one that is not there.
+[[nodiscard]] JsonNode lightOf(const Document &document, const JsonObject &use, std::string_view name);
 
 /// The light of a node, where its map to the world brings it; nothing for a node without one. Candela and lux count as
 /// watts per steradian and per square metre. A range is passed over with a warning.
