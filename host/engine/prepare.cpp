@@ -342,7 +342,7 @@ void adviseOnLightsBehindGlass(const Scene &scene, Integrator integrator, Observ
 
 /// Drops what is packed, except for glass: where a camera moves, packCamera asks what is around it.
 void dropSource(Scene &scene) {
-    const auto isOfGlass = [&](std::uint32_t index) { return isGlass(scene.materials[index]); };
+    const auto isOfGlass = [&](std::uint32_t index) { return holdsMedium(scene.materials[index]); };
     for (std::vector<TriangleMesh> *meshes : {&scene.meshes, &scene.prototypes})
         for (TriangleMesh &mesh : *meshes)
             if (!wears(mesh, isOfGlass))

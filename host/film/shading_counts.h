@@ -9,16 +9,17 @@ namespace hyalite::core {
 
 /// A part of a material that sends a path on.
 enum class Lobe {
-    Diffuse, ///< Lambert's, also below plastic
-    Glossy,  ///< facets of metal, plastic and lacquer
+    Diffuse,             ///< Lambert's, also below plastic
+    DiffuseTransmission, ///< the same, on the other side
+    Glossy,              ///< facets of metal, plastic and lacquer
     Sheen,
     Thin,       ///< facets that let light through thin glass
     RoughGlass, ///< facets that reflect or refract it
     Mirror,     ///< smooth metal
     ClearGlass, ///< smooth glass
 };
-inline constexpr std::array<const char *, 7> lobeNames{"diffuse",    "glossy", "sheen",     "thin",
-                                                       "roughGlass", "mirror", "clearGlass"};
+inline constexpr std::array<const char *, 8> lobeNames{
+    "diffuse", "diffuseTransmission", "glossy", "sheen", "thin", "roughGlass", "mirror", "clearGlass"};
 
 struct ShadingCounts {
     std::array<std::uint64_t, lobeNames.size()> lobes{}; ///< surfaces that were shaded, by Lobe

@@ -241,6 +241,7 @@ void readTextures(const JsonObject &object, const MaterialRow &row, const Textur
     makeOne(layout::slotSheenRoughness, material.sheenRoughness);
     makeOne(layout::slotAnisotropy, material.anisotropy);
     makeOne(layout::slotIridescence, material.iridescence);
+    makeOne(layout::slotDiffuseTransmission, material.diffuseTransmission);
 }
 
 // One function for each kind of key; without the key the member keeps its value.

@@ -34,7 +34,7 @@ bool addWindings(const Scene &scene, const TriangleMesh &mesh, const Place &plac
     bool isNear = false;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const std::uint32_t material = mesh.materialOf(i);
-        if (!isGlass(scene.materials[material]))
+        if (!holdsMedium(scene.materials[material]))
             continue;
         const glm::uvec3 &corners = mesh.triangles[i].positions;
         const glm::dvec3 a = place(mesh.positions[corners.x]);
@@ -52,11 +52,11 @@ bool addWindings(const Scene &scene, const TriangleMesh &mesh, const Place &plac
 MediaAt mediaAt(const Scene &scene, std::span<const std::uint32_t> packedMaterial, const glm::dvec3 &point,
                 const glm::dvec3 &spread) {
     MediaAt media;
-    if (std::ranges::none_of(scene.materials, isGlass))
+    if (std::ranges::none_of(scene.materials, holdsMedium))
         return media;
     std::vector<double> windings(scene.materials.size(), 0.0);
     for (const Sphere &sphere : scene.spheres) {
-        if (!isGlass(scene.materials[sphere.materialIndex]))
+        if (!holdsMedium(scene.materials[sphere.materialIndex]))
             continue;
         const double distance = glm::distance(point, sphere.centre);
         if (distance < sphere.radius)

@@ -175,13 +175,14 @@ layout::MaterialRecord packMaterial(const Material &material) {
 /// integrator, which alone reads of them, can follow.
 GlassNodes glassNodesOf(const Scene &scene) {
     GlassNodes nodes;
-    if (std::ranges::count_if(scene.materials, isGlass) > std::int64_t{layout::maxMedia})
+    if (std::ranges::count_if(scene.materials, holdsMedium) > std::int64_t{layout::maxMedia})
         return nodes;
     std::vector<double> indices = {1.0};
     for (const Material &material : scene.materials) {
+        if (holdsMedium(material))
+            indices.push_back(static_cast<double>(material.refractiveIndex));
         if (!isGlass(material))
             continue;
-        indices.push_back(static_cast<double>(material.refractiveIndex));
         const double roughness = std::sqrt(static_cast<double>(leaves::alphaOf(material.roughness)));
         const bool isTextured = material.textures[layout::slotRoughness].has_value();
         const bool isGlossiness = isTextured && material.isSpecularGlossy;
@@ -206,7 +207,7 @@ std::vector<std::uint32_t> materialOrder(const std::vector<Material> &materials)
     std::vector<std::uint32_t> order(materials.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto rank = [&](std::uint32_t i) {
-        return isGlass(materials[i]) ? -materials[i].priority : std::numeric_limits<int>::max();
+        return holdsMedium(materials[i]) ? -materials[i].priority : std::numeric_limits<int>::max();
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
@@ -257,8 +258,8 @@ void useMaterial(const Scene &scene, std::uint32_t index, bool hasTransparency, 
     const Material &material = scene.materials[index];
     const MaterialRow &row = rowOf(material.kind);
     packed.hasEmission = packed.hasEmission || material.emission != glm::vec3(0.0f);
-    packed.hasSpecular = packed.hasSpecular || !row.scattersDiffusely || isGlass(material);
-    packed.hasDielectric = packed.hasDielectric || isGlass(material);
+    packed.hasSpecular = packed.hasSpecular || !row.scattersDiffusely || holdsMedium(material);
+    packed.hasDielectric = packed.hasDielectric || holdsMedium(material);
     packed.scattering |= row.scattering(material);
     packed.texturing |= texturingOf(material, scene.textures);
     packed.anyHit |= anyHitOf(material, hasTransparency);

@@ -26,7 +26,7 @@ template <class Real, class Counter, class OnRay>
             return media;
         std::uint32_t materialIndex;
         const Surface<Real> surface = hitSurface(scene, hit, ray.origin, ray.direction, materialIndex);
-        if (isGlass(scene, scene.fetchMaterial(materialIndex)))
+        if (holdsMedium(scene, scene.fetchMaterial(materialIndex)))
             media = dotProduct(ray.direction, surface.geometricNormal) < 0
                         ? enterMedium(media, materialIndex)
                         : leaveMedium(media, materialIndex);

@@ -63,7 +63,10 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         case bsdfOpaque:
             if (choice < bsdf.specularProbability)
                 return Lobe::Glossy;
-            return choice < bsdf.specularProbability + bsdf.thinProbability ? Lobe::Thin : Lobe::Diffuse;
+            if (choice < bsdf.specularProbability + bsdf.thinProbability)
+                return Lobe::Thin;
+            return choice < Real(1) - bsdf.diffuseTransmissionProbability ? Lobe::Diffuse
+                                                                          : Lobe::DiffuseTransmission;
         default:
             return Lobe::Diffuse;
         }
@@ -190,8 +193,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         }
         if (!survivesRoulette())
             return std::nullopt;
-        counter_.scatter(isGlass(scene_, material) ? Lobe::ClearGlass : Lobe::Mirror);
-        if (isGlass(scene_, material))
+        counter_.scatter(holdsMedium(scene_, material) ? Lobe::ClearGlass : Lobe::Mirror);
+        if (holdsMedium(scene_, material))
             return scatterSmoothDielectric(ray, surface, materialIndex, hit.primitive);
         weaken(mirrorReflectance(scene_, material, abs(dotProduct(ray.direction, surface.normal))));
         return reflect(ray, surface, surface.normal, hit.primitive);
@@ -203,7 +206,7 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
                                                      const MaterialRecord<Real> &material,
                                                      std::uint32_t materialIndex, bool isBehind) {
         const std::uint32_t primitive = hit.primitive;
-        const Crossing crossing = isGlass(scene_, material)
+        const Crossing crossing = holdsMedium(scene_, material)
                                       ? crossingOf(materialIndex, !isBehind)
                                       : Crossing{mediaInside_, mediaInside_, Real(1), true};
         const Vec2<Real> lobe = lobeChoice();

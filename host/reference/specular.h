@@ -152,9 +152,9 @@ template <class Real, class Counter> class SpecularPath {
     /// clear.
     [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
                                       bool isEntering) const {
-        if (isGlass(scene_, material) && material.alpha > 0) {
+        if (holdsMedium(scene_, material) && material.alpha > 0) {
             const Crossing crossing = crossingOf(materialIndex, isEntering);
-            return crossing.isNullInterface || crossing.eta == Real(1);
+            return crossing.isNullInterface || (isGlass(scene_, material) && crossing.eta == Real(1));
         }
         return isSpecular(material);
     }

@@ -132,7 +132,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
         if (view_ == layout::viewDepth)
             static_cast<void>(show(Vec3<Real>(pathLength_ += hit.distance)));
         const bool isMetal = isLookedAtAsMetal(material);
-        if (isGlass(scene_, material) && !isMetal) {
+        if (holdsMedium(scene_, material) && !isMetal) {
             const Ray<Real> next = scatterSmoothDielectric(ray, surface, materialIndex, hit.primitive);
             if (isRefracted_)
                 weaken(glassTint(scene_, material));

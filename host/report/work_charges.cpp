@@ -15,7 +15,8 @@ namespace hyalite::core {
 namespace {
 
 constexpr std::array<const char *, lobeNames.size()> lobeWords{
-    "diffuse", "glossy", "sheen", "thin glass", "rough glass", "mirrors", "clear glass"};
+    "diffuse",    "diffuse transmission", "glossy",  "sheen",
+    "thin glass", "rough glass",          "mirrors", "clear glass"};
 
 std::vector<WorkCharge> chargesOf(const std::vector<WorkByStage> &account,
                                   const std::vector<std::string> &names) {

@@ -63,7 +63,7 @@ glm::dvec3 unitNormal(const Corners &corners) {
 using Rank = std::tuple<bool, int, std::uint32_t, std::uint32_t>;
 
 Rank rankOf(const std::vector<Material> &materials, std::uint32_t material, std::uint32_t place) {
-    const bool isOfGlass = isGlass(materials[material]);
+    const bool isOfGlass = holdsMedium(materials[material]);
     return {isOfGlass, isOfGlass ? -materials[material].priority : 0, isOfGlass ? material : 0, place};
 }
 
@@ -420,7 +420,7 @@ void move(TriangleMesh &mesh, const Solids &solids, const std::map<std::uint32_t
 } // namespace
 
 void partContacts(Scene &scene) {
-    if (std::ranges::none_of(scene.materials, isGlass))
+    if (std::ranges::none_of(scene.materials, holdsMedium))
         return;
     partSpheres(scene);
     ContactSearch search(scene);

@@ -101,6 +101,8 @@ struct Material {
     float iridescenceThickness = 400.0f;  ///< nanometres, in [0, 1e5]; with a texture, where that is 1
     /// Where the texture is 0; it may be more than where that is 1.
     float iridescenceThicknessMinimum = 100.0f;
+    float diffuseTransmission = 0.0f; ///< KHR_materials_diffuse_transmission: share of the base, in [0, 1]
+    glm::vec3 diffuseTransmissionColour{1.0f}; ///< that light has beyond, in [0, 1]
     bool isThin = false; ///< a surface without volume behind it: what it transmits is not refracted
     /// KHR_materials_pbrSpecularGlossiness: dielectricColour is the reflectance at normal incidence.
     bool isSpecularGlossy = false;
@@ -128,6 +130,13 @@ struct Material {
     return material.kind == MaterialKind::Dielectric ||
            (material.kind == MaterialKind::Principled && material.transmission > 0.0f) ||
            (material.kind == MaterialKind::Gltf && material.transmission > 0.0f && !material.isThin);
+}
+
+/// Whether light goes on in a medium beyond the material: in glass, or in what absorbs it below a base that lets it
+/// through.
+[[nodiscard]] inline bool holdsMedium(const Material &material) {
+    return isGlass(material) || (material.kind == MaterialKind::Gltf && material.diffuseTransmission > 0.0f &&
+                                 !material.isThin && material.absorption != glm::vec3(0.0f));
 }
 
 // ---- Keys
@@ -278,6 +287,12 @@ inline constexpr auto gltf = std::to_array<MaterialKey>({
      NumberKey{&Material::iridescenceThicknessMinimum, limits::filmThickness,
                &Record::iridescenceThicknessMinimum},
      "where the texture is 0; it may be more than the other"},
+    {"diffuseTransmission",
+     NumberKey{&Material::diffuseTransmission, limits::fraction, &Record::diffuseTransmission},
+     "share of the base below plastic that sends light on beyond the surface, to all directions alike"},
+    {"diffuseTransmissionColour",
+     ColourKey{&Material::diffuseTransmissionColour, limits::fraction, &Record::diffuseTransmissionColour},
+     "the base's colour there; with `absorption` and without `thin`, light goes on in what absorbs it"},
     {"unlit", FlagKey{&Material::isUnlit}, "shows its base colour, whatever the light"},
     {"opacity", NumberKey{&Material::opacity, limits::fraction, &Record::opacity},
      "factor on that of textures and vertices; meshes only"},
@@ -315,7 +330,9 @@ inline constexpr std::array<TextureSlot, layout::textureSlotCount> textureSlots{
      {"sheenRoughness", layout::slotSheenRoughness, "its red channel"},
      {"anisotropy", layout::slotAnisotropy, "a direction in red and green, a factor on the strength in blue"},
      {"iridescence", layout::slotIridescence, "its red channel"},
-     {"iridescenceThickness", layout::slotIridescenceThickness, "its red channel"}}};
+     {"iridescenceThickness", layout::slotIridescenceThickness, "its red channel"},
+     {"diffuseTransmission", layout::slotDiffuseTransmission, "its red channel"},
+     {"diffuseTransmissionColour", layout::slotDiffuseTransmissionColour}}};
 
 // ---- Kinds
 
@@ -348,6 +365,8 @@ struct MaterialRow {
         (has(layout::slotIridescenceThickness) && material.iridescenceThicknessMinimum > 0.0f);
     if (material.iridescence > 0.0f && isThick)
         bits |= layout::scattersAtIridescent;
+    if (material.diffuseTransmission > 0.0f)
+        bits |= layout::scattersAtDiffuseTransmission;
     if (material.clearcoat > 0.0f && (has(layout::slotNormal) || has(layout::slotClearcoatNormal)))
         bits |= layout::scattersAtCoatNormals;
     return bits;

@@ -40,7 +40,7 @@ struct PlacedCornerHash {
 Solids solidsOf(const TriangleMesh &mesh, const std::vector<Material> &materials) {
     Solids solids;
     solids.ofTriangles.assign(mesh.triangles.size(), noSolid);
-    const auto isOfGlass = [&](std::uint32_t index) { return isGlass(materials[index]); };
+    const auto isOfGlass = [&](std::uint32_t index) { return holdsMedium(materials[index]); };
     if (mesh.triangleMaterials.empty() ? !isOfGlass(mesh.materialIndex)
                                        : std::ranges::none_of(mesh.triangleMaterials, isOfGlass))
         return solids;

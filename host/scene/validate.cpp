@@ -389,7 +389,7 @@ void validateSettings(const RenderSettings &settings, const Scene &scene, const 
     if (settings.integrator == Integrator::Path || areViewsThrough)
         Checked(sourceName, "scene")
             .atMost(limits::mediumCount,
-                    static_cast<std::size_t>(std::ranges::count_if(scene.materials, isGlass)),
+                    static_cast<std::size_t>(std::ranges::count_if(scene.materials, holdsMedium)),
                     settings.integrator == Integrator::Path
                         ? "materials that light passes for the integrator path"
                         : "materials that light passes for layersThrough");

@@ -27,6 +27,13 @@ bool isThinGlass(MaterialRecord material) {
            isThin(material);
 }
 
+// Whether light goes on in a medium beyond the surface: in glass, or in what absorbs it below a base that lets it
+// through.
+bool holdsMedium(MaterialRecord material) {
+    return isGlass(material) || transmitsDiffusely(material) && !isThin(material) &&
+                                    largestComponent(material.absorption) > 0.0;
+}
+
 const float clearAlpha = 0.0100001; // of a roughness of 0.1, whose square is rounded up
 
 // Whether the material is seen through like a window's glass: that of a roughness up to 0.1.
@@ -37,7 +44,8 @@ bool isClearGlass(MaterialRecord material) {
 // Whether light from behind a surface that scatters counts, too. Textures only take from transmission: asked of the
 // record without them, the answer is a bound.
 bool isLitFromBehind(MaterialRecord material) {
-    return (scattering & (scattersAtRoughGlass | scattersAtThin)) != 0u && (isGlass(material) || isThinGlass(material));
+    return (scattering & (scattersAtRoughGlass | scattersAtThin | scattersAtDiffuseTransmission)) != 0u &&
+           (isGlass(material) || isThinGlass(material) || transmitsDiffusely(material));
 }
 
 // Whether the material shows its base colour, whatever the light.
@@ -52,7 +60,7 @@ bool isSpecular(MaterialRecord material) {
 // Whether the back side is black: that of scattering surfaces, unless they are two-sided, metal or glass.
 bool isBlackBehind(MaterialRecord material) {
     return !isTwoSided(material) && (scattering == 0u || kindOf(material) != materialConductor && !isGlass(material) &&
-                                                            !isThinGlass(material));
+                                                            !isThinGlass(material) && !transmitsDiffusely(material));
 }
 
 // Whether the material mixes lobes: principled ones and those of glTF, which are never specular.
@@ -102,9 +110,16 @@ bool isColourless(MaterialRecord material) {
 vec3 albedoForViews(MaterialRecord material, float cosine) {
     if (isColourless(material))
         return vec3(1.0);
-    if (kindOf(material) != materialGltf || !isIridescent(material) || isUnlit(material) || !(material.metallic > 0.0))
+    if (kindOf(material) != materialGltf || isUnlit(material))
         return material.albedo;
-    return mixtureOf(material.albedo, metalReflectance(material, cosine), material.metallic * material.iridescence);
+    vec3 colour = material.albedo;
+    if (transmitsDiffusely(material)) {
+        float share = (1.0 - material.metallic) * (1.0 - material.transmission) * material.diffuseTransmission;
+        colour = mixtureOf(colour, material.diffuseTransmissionColour, share);
+    }
+    if (!isIridescent(material) || !(material.metallic > 0.0))
+        return colour;
+    return mixtureOf(colour, metalReflectance(material, cosine), material.metallic * material.iridescence);
 }
 
 // Reflectance of a specular material that is not glass, at this cosine of the angle of incidence.
@@ -155,6 +170,8 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     bsdf.plasticGrazing = 1.0;
     bsdf.thinTint = vec3(0.0);
     bsdf.thinProbability = 0.0;
+    bsdf.diffuseTransmission = vec3(0.0);
+    bsdf.diffuseTransmissionProbability = 0.0;
     bsdf.weight = 1.0;
     bsdf.specularProbability = 0.0;
     bsdf.iridescence = noIridescence();
@@ -164,7 +181,7 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
         return makeGltf(bsdf, material, axes, geometricNormal, -direction, isBehind, choice);
     if ((scattering & scattersAtRoughConductors) != 0u && kindOf(material) == materialConductor) {
         bsdf.isConductor = true;
-        return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), material.averageReflectance);
+        return addOpaqueLobes(bsdf, 1.0, 0.0, vec3(0.0), vec3(0.0), material.averageReflectance);
     }
     if ((scattering & scattersAtRoughGlass) != 0u && kindOf(material) == materialDielectric)
         return makeGlass(bsdf);
@@ -188,8 +205,12 @@ vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
         return sampleHemisphere(u);
     bool isThrough = (scattering & scattersAtThin) != 0u && bsdf.kind == bsdfOpaque &&
                      choice >= bsdf.specularProbability && choice < bsdf.specularProbability + bsdf.thinProbability;
-    if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability && !isThrough)
-        return sampleCosine(u);
+    if (bsdf.kind == bsdfDiffuse || bsdf.kind == bsdfOpaque && choice >= bsdf.specularProbability && !isThrough) {
+        vec3 wi = sampleCosine(u);
+        bool isBeyond = (scattering & scattersAtDiffuseTransmission) != 0u &&
+                        choice >= 1.0 - bsdf.diffuseTransmissionProbability;
+        return isBeyond ? vec3(vec2(wi), -wi.z) : wi;
+    }
     vec3 facet = sampleGgxVndf(bsdf.wo, bsdf.alphas, u);
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass) {
         DielectricFresnel glass = fresnelDielectric(-bsdf.wo, facet, bsdf.eta);
@@ -202,19 +223,25 @@ vec3 sampleBsdf(Bsdf bsdf, vec2 u, float choice) {
     return reflected.z > 0.0 ? reflected : vec3(0.0);
 }
 
+// Whether an opaque BSDF has light from the other side.
+bool passesLight(Bsdf bsdf) {
+    return (scattering & scattersAtThin) != 0u && bsdf.thinProbability > 0.0 ||
+           (scattering & scattersAtDiffuseTransmission) != 0u && bsdf.diffuseTransmissionProbability > 0.0;
+}
+
 // Value and pdf for light from `wi`, a unit vector in the frame.
 BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
     if ((scattering & scattersAtRoughGlass) != 0u && bsdf.kind == bsdfGlass && wi.z != 0.0)
         return evalGlass(bsdf, wi);
-    if (wi.z <= 0.0 && ((scattering & scattersAtThin) == 0u || bsdf.thinProbability == 0.0 || wi.z == 0.0))
+    if (wi.z <= 0.0 && (wi.z == 0.0 || !passesLight(bsdf)))
         return BsdfEval(vec3(0.0), 0.0);
     if (scattering == 0u || bsdf.kind == bsdfDiffuse)
         return evalDiffuse(bsdf, wi);
     if ((scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
         return evalSheen(bsdf, wi);
     BsdfEval opaque;
-    if ((scattering & scattersAtThin) != 0u && wi.z < 0.0)
-        opaque = evalThin(bsdf, wi);
+    if ((scattering & (scattersAtThin | scattersAtDiffuseTransmission)) != 0u && wi.z < 0.0)
+        opaque = evalBeyond(bsdf, wi);
     else
         opaque = evalOpaque(bsdf, wi);
     if ((scattering & (scattersAtPrincipled | scattersAtGltf)) != 0u)
@@ -222,15 +249,16 @@ BsdfEval evalBsdf(Bsdf bsdf, vec3 wi) {
     return opaque;
 }
 
-// The share of `value`, which evalBsdf gives for `wi`, that is diffuse: of Lambert's lobe, of the base below plastic, or
-// of sheen. In [0, 1] for each channel.
+// The share of `value`, which evalBsdf gives for `wi`, that is diffuse: of Lambert's lobe, of the base below plastic on
+// either side, or of sheen. In [0, 1] for each channel.
 vec3 diffuseShare(Bsdf bsdf, vec3 wi, vec3 value) {
     if (scattering == 0u || bsdf.kind == bsdfDiffuse || (scattering & scattersAtSheen) != 0u && bsdf.kind == bsdfSheen)
         return vec3(1.0);
-    if (bsdf.kind != bsdfOpaque || wi.z <= 0.0)
+    if (bsdf.kind != bsdfOpaque || wi.z <= 0.0 && !passesLight(bsdf))
         return vec3(0.0);
-    float ofBase = diffuseBaseShare(bsdf, energyOf(wi.z, bsdf.roughness), wi) * bsdf.weight;
-    vec3 base = bsdf.diffuseBase * ofBase;
+    float cosine = abs(wi.z);
+    float ofBase = diffuseBaseShare(bsdf, energyOf(cosine, bsdf.roughness), cosine) * bsdf.weight;
+    vec3 base = (wi.z > 0.0 ? bsdf.diffuseBase : bsdf.diffuseTransmission) * ofBase;
     vec3 whole = greater(value, vec3(1e-30));
     return lesser(vec3(divide(base.x, whole.x), divide(base.y, whole.y), divide(base.z, whole.z)), vec3(1.0));
 }

@@ -1,5 +1,5 @@
-// The material of glTF 2.0: a clear coat over sheen over an iridescent film on a mixture of metal, plastic, glass and
-// thin glass, as the specification and its extensions KHR_materials_... define it, except for what facets lose at once:
+// The material of glTF 2.0: a clear coat over sheen over an iridescent film on a mixture of metal, plastic whose base
+// may let light through, glass and thin glass, as the specification and its extensions KHR_materials_... define it, except for what facets lose at once:
 // see README.md.
 //
 // As in principled.glsl one component is chosen at each hit.
@@ -9,6 +9,12 @@ struct SurfaceAxes {
     vec3 tangent;    // in which u grows, of any length; 0: unknown
     vec3 coatNormal; // of the clear coat: a unit vector that is on the same side of the surface as the viewer
 };
+
+// Whether the base lets light through, diffusely.
+bool transmitsDiffusely(MaterialRecord material) {
+    return (scattering & scattersAtDiffuseTransmission) != 0u && kindOf(material) == materialGltf &&
+           material.diffuseTransmission > 0.0;
+}
 
 // Reflectance of the dielectric part at normal incidence: KHR_materials_specular.
 vec3 dielectricReflectance(MaterialRecord material) {
@@ -107,5 +113,10 @@ Bsdf makeGltf(Bsdf bsdf, MaterialRecord material, SurfaceAxes axes, vec3 geometr
         if (metal > 0.0)
             average = mixtureOf(average, averageIridescence(bsdf.iridescence), material.iridescence);
     }
-    return addOpaqueLobes(bsdf, metal, plastic * (1.0 - thin), colour, average);
+    vec3 colourBeyond = vec3(0.0);
+    if (transmitsDiffusely(material)) {
+        colourBeyond = material.diffuseTransmissionColour * material.diffuseTransmission;
+        colour = colour * (1.0 - material.diffuseTransmission);
+    }
+    return addOpaqueLobes(bsdf, metal, plastic * (1.0 - thin), colour, colourBeyond, average);
 }

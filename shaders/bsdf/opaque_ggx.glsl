@@ -38,9 +38,11 @@ float facetD(Bsdf bsdf, vec3 m) {
 
 
 // Adds the lobes of metal and plastic to `bsdf`. `metal` and `plastic` are their shares of the surface; `metalAverage`
-// is the cosine-weighted average reflectance of the metal. Of a film the base gets what it does not reflect of the
-// viewer's direction, and sends it on as below bare plastic, so that nothing is lost.
-Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 metalAverage) {
+// is the cosine-weighted average reflectance of the metal. The base below plastic has `colour` on the side of the
+// viewer and `colourBeyond` on the other, which surfaces alike bound, so that light leaves it as it does here. Of a film
+// the base gets what it does not reflect of the viewer's direction, and sends it on as below bare plastic, so that
+// nothing is lost.
+Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 colourBeyond, vec3 metalAverage) {
     Energy energy = energyOf(bsdf.wo.z, bsdf.roughness);
     Energy average = averageEnergy(bsdf.roughness);
     vec3 multiScatterColour = multiScatterReflectance(metalAverage, average.white) * metal;
@@ -52,9 +54,16 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
     }
     vec3 diffuseBaseColour = colour * plastic;
     float averagePlastic = energyAt(average, bsdf.plasticReflectance, bsdf.plasticGrazing);
-    bsdf.diffuseBase = diffuseBaseColour * lossShare(plasticEnergy, averagePlastic);
+    float baseShare = lossShare(plasticEnergy, averagePlastic);
+    bsdf.diffuseBase = diffuseBaseColour * baseShare;
     float facets = mean(fresnelReflectance(bsdf, bsdf.wo.z)) * energy.white;
     float others = mean(multiScatterColour) * (1.0 - energy.white) + mean(diffuseBaseColour) * (1.0 - plasticEnergy);
+    float beyond = 0.0;
+    if ((scattering & scattersAtDiffuseTransmission) != 0u) {
+        vec3 transmittedColour = colourBeyond * plastic;
+        bsdf.diffuseTransmission = transmittedColour * baseShare;
+        beyond = mean(transmittedColour) * (1.0 - plasticEnergy);
+    }
     float through = 0.0;
     if ((scattering & scattersAtThin) != 0u) {
         // What facets lose is given to what passes, so that it is all that is not reflected (Turquin 2019, see
@@ -64,15 +73,16 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 met
         through = mean(bsdf.thinTint) * left;
         bsdf.thinTint = bsdf.thinTint * divide(left, passedOnce);
     }
-    float sum = greater(facets + others + through, 1e-20);
+    float sum = greater(facets + others + through + beyond, 1e-20);
     bsdf.specularProbability = divide(facets, sum);
     bsdf.thinProbability = divide(through, sum);
+    bsdf.diffuseTransmissionProbability = divide(beyond, sum);
     return bsdf;
 }
 
-// The diffuse base's part of the value for light from `wi`, without its colour. `energy` is that of wi.z.
-float diffuseBaseShare(Bsdf bsdf, Energy energy, vec3 wi) {
-    return (1.0 - energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing)) * wi.z;
+// The diffuse base's part of the value for light at this cosine, without its colour. `energy` is that of the cosine.
+float diffuseBaseShare(Bsdf bsdf, Energy energy, float cosine) {
+    return (1.0 - energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing)) * cosine;
 }
 
 BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
@@ -83,12 +93,13 @@ BsdfEval evalOpaque(Bsdf bsdf, vec3 wi) {
     float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, wi.z, facetStretch(bsdf, wi));
     float once = reflected * lit;
     vec3 value = fresnelReflectance(bsdf, cosine) * once;
-    float diffuseProbability = 1.0 - bsdf.specularProbability - bsdf.thinProbability;
+    float diffuseProbability =
+        1.0 - bsdf.specularProbability - bsdf.thinProbability - bsdf.diffuseTransmissionProbability;
     float pdf = bsdf.specularProbability * reflected + diffuseProbability * cosinePdf;
     if (bsdf.specularProbability < 1.0) {
         Energy energy = energyOf(wi.z, bsdf.roughness);
         float multiScatterShare = (1.0 - energy.white) * wi.z;
-        value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare(bsdf, energy, wi);
+        value = value + bsdf.multiScatter * multiScatterShare + bsdf.diffuseBase * diffuseBaseShare(bsdf, energy, wi.z);
     }
     return BsdfEval(value, pdf);
 }
@@ -106,4 +117,17 @@ BsdfEval evalThin(Bsdf bsdf, vec3 wi) {
         reflected = mixture(reflected, iridescentLoss(bsdf.iridescence, cosine), bsdf.iridescence.share);
     float kept = 1.0 - reflected;
     return BsdfEval(bsdf.thinTint * (passed * lit * kept), bsdf.thinProbability * passed);
+}
+
+// Light from the other side, for `wi` below the surface.
+BsdfEval evalBeyond(Bsdf bsdf, vec3 wi) {
+    BsdfEval beyond = BsdfEval(vec3(0.0), 0.0);
+    if ((scattering & scattersAtThin) != 0u && bsdf.thinProbability > 0.0)
+        beyond = evalThin(bsdf, wi);
+    if ((scattering & scattersAtDiffuseTransmission) != 0u && bsdf.diffuseTransmissionProbability > 0.0) {
+        float share = diffuseBaseShare(bsdf, energyOf(-wi.z, bsdf.roughness), -wi.z);
+        beyond.value = beyond.value + bsdf.diffuseTransmission * share;
+        beyond.pdf = beyond.pdf + bsdf.diffuseTransmissionProbability * pdfCosine(-wi.z);
+    }
+    return beyond;
 }

@@ -32,5 +32,5 @@ Bsdf makePrincipled(Bsdf bsdf, MaterialRecord material, bool isBehind, float cho
     bsdf.plasticReflectance = material.normalReflectance;
     bsdf.reflectance = material.albedo * metal + material.normalReflectance * plastic;
     vec3 average = material.albedo + (1.0 - material.albedo) * (1.0 / 21.0);
-    return addOpaqueLobes(bsdf, metal, plastic, material.albedo, average);
+    return addOpaqueLobes(bsdf, metal, plastic, material.albedo, vec3(0.0), average);
 }

@@ -36,7 +36,7 @@ void passOnWay(const Answer answer) {
     uint materialIndex;
     vec3 direction = request.ray.direction;
     Surface surface = hitSurface(answer.hit, request.ray.origin, direction, materialIndex);
-    if (isGlass(fetchMaterial(materialIndex)))
+    if (holdsMedium(fetchMaterial(materialIndex)))
         path.mediaInside = dotProduct(direction, surface.geometricNormal) < 0.0
                                ? enterMedium(path.mediaInside, materialIndex)
                                : leaveMedium(path.mediaInside, materialIndex);

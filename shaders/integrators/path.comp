@@ -130,12 +130,12 @@ void leaveScene(vec3 direction) {
         addEnvironment(direction);
 }
 
-// At a mirror or smooth glass.
+// At a mirror or smooth glass, or where a surface that holds a medium lies in glass of higher priority.
 void scatterSpecular(const Answer answer, const Surface surface,
                      const MaterialRecord material, uint materialIndex) {
     if (!survivesRoulette())
         return;
-    if (hasDielectric && isGlass(material)) {
+    if (hasDielectric && holdsMedium(material)) {
         scatterSmoothDielectric(answer, surface, materialIndex);
     } else {
         if (scattering != 0u)
@@ -227,7 +227,7 @@ Scatterer scattererAt(const Ray ray, const Hit hit) {
                                           texturesOfLobes | texturesBaseColour, path.vertex.surface.position);
     vec3 geometricNormal = surfaceAt().geometricNormal;
     Crossing crossing = Crossing(path.mediaInside, path.mediaInside, 1.0, true);
-    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material))
+    if ((scattering & (scattersAtRoughGlass | scattersAtDiffuseTransmission)) != 0u && holdsMedium(material))
         crossing = crossingOf(path.mediaInside, materialIndex, !isBehind);
     vec2 lobe = lobeChoice();
     vec3 normal = path.vertex.surface.normal;

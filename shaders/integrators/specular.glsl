@@ -88,9 +88,10 @@ bool scatterSmoothDielectric(const Answer answer, const Surface surface,
 
 // Whether the surface is a mirror or clear glass. Rough glass with the same index on both sides is clear.
 bool isSpecularHere(uint mediaInside, const MaterialRecord material, uint materialIndex, bool isEntering) {
-    if ((scattering & scattersAtRoughGlass) != 0u && isGlass(material) && material.alpha > 0.0) {
+    if ((scattering & (scattersAtRoughGlass | scattersAtDiffuseTransmission)) != 0u && holdsMedium(material) &&
+        material.alpha > 0.0) {
         Crossing crossing = crossingOf(mediaInside, materialIndex, isEntering);
-        return crossing.isNullInterface || crossing.eta == 1.0;
+        return crossing.isNullInterface || isGlass(material) && crossing.eta == 1.0;
     }
     return isSpecular(material);
 }

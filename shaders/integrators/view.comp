@@ -35,7 +35,16 @@ const bool goesOn = false;
 // Textures that say whether a material is looked through, and what it reflects.
 const uint texturesOfClearness = texturesRoughness | texturesMetallic | texturesTransmission |
                                  1u << slotDielectricWeight | 1u << slotDielectricColour |
-                                 (view == viewAlbedo ? texturesBaseColour | texturesIridescence : 0u);
+                                 (view == viewAlbedo
+                                      ? texturesBaseColour | texturesIridescence | texturesDiffuseTransmission
+                                      : 0u);
+
+// Those that say what albedo a surface shows.
+const uint texturesOfAlbedo =
+    texturesBaseColour | ((scattering & scattersAtIridescent) != 0u ? texturesMetallic | texturesIridescence : 0u) |
+    ((scattering & scattersAtDiffuseTransmission) != 0u
+         ? texturesMetallic | texturesTransmission | texturesDiffuseTransmission
+         : 0u);
 
 void begin() {
     if (looksThrough)
@@ -130,7 +139,7 @@ void scatterThinGlass(const Answer answer, const Surface surface,
 bool mayBeLookedThrough(MaterialRecord material) {
     if (material.textures != 0u && isTextured(material.textures, slotRoughness))
         material.alpha = clearAlpha;
-    return isGlass(material) || isLookedThrough(material);
+    return holdsMedium(material) || isLookedThrough(material);
 }
 
 // Sends the ray on, and returns true, if the surface is looked through.
@@ -150,7 +159,7 @@ bool lookThrough(const Answer answer, const Surface surface,
     if (view == viewDepth)
         show(path.radiance + vec3(answer.hit.distance));
     bool isMetal = isLookedAtAsMetal(material);
-    if (hasDielectric && isGlass(material) && !isMetal) {
+    if (hasDielectric && holdsMedium(material) && !isMetal) {
         if (scatterSmoothDielectric(answer, surface, materialIndex))
             weaken(glassTint(material));
     } else if (isThinGlass(material) && !isMetal) {
@@ -184,9 +193,8 @@ void showSurface(const Answer answer, const Surface surface,
         show(vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
     if (view == viewAlbedo) {
-        uint slots = texturesBaseColour |
-                     ((scattering & scattersAtIridescent) != 0u ? texturesMetallic | texturesIridescence : 0u);
-        MaterialRecord material = hitMaterial(answer.hit, fetchMaterial(materialIndex), slots, surface.position);
+        MaterialRecord material = hitMaterial(answer.hit, fetchMaterial(materialIndex), texturesOfAlbedo,
+                                              surface.position);
         vec3 colour = albedoForViews(material, abs(dotProduct(request.ray.direction, surface.normal)));
         show(looksThrough ? withoutTiny(path.throughput * colour) : colour);
     }

@@ -290,6 +290,9 @@ struct MaterialRecord {
     float iridescenceIndex;
     float iridescenceThickness;
     float iridescenceThicknessMinimum;
+    // glTF: share of the base that light leaves on the other side, and the colour that it has there
+    vec3 diffuseTransmissionColour;
+    float diffuseTransmission;
 };
 
 // Flags of MaterialRecord::kindAndSides.
@@ -337,6 +340,7 @@ const uint scattersAtThin = 128u;
 const uint scattersAtCoatNormals = 256u; // a clear coat's normals differ from those below
 const uint scattersAtUnlit = 512u;
 const uint scattersAtIridescent = 1024u; // films
+const uint scattersAtDiffuseTransmission = 2048u;
 
 // Any-hit tests: bits of constantAnyHit. A hit does not count
 const uint anyHitCutOut = 1u;  // where the opacity of a surface is below a threshold
@@ -421,7 +425,9 @@ const uint slotSheenRoughness = 13u;
 const uint slotAnisotropy = 14u; // red and green: a direction; blue: a factor on the strength
 const uint slotIridescence = 15u;
 const uint slotIridescenceThickness = 16u;
-const uint textureSlotCount = 17u;
+const uint slotDiffuseTransmission = 17u;
+const uint slotDiffuseTransmissionColour = 18u;
+const uint textureSlotCount = 19u;
 
 // Bits of constantTexturing: the slots in which materials of the scene have textures, whether any texels have 8 bits,
 // and what triangles and lookups need beyond one pair of coordinates and repeated images.
@@ -444,14 +450,15 @@ const uint texturesTransmission = 1u << slotTransmission;
 const uint texturesClearcoatNormal = 1u << slotClearcoatNormal;
 const uint texturesAnisotropy = 1u << slotAnisotropy;
 const uint texturesIridescence = (1u << slotIridescence) + (1u << slotIridescenceThickness);
+const uint texturesDiffuseTransmission = (1u << slotDiffuseTransmission) + (1u << slotDiffuseTransmissionColour);
 // Slots that change the material.
 const uint texturesMaterials =
     texturesLevels - 1u - texturesNormal - texturesClearcoatNormal - texturesOpacity;
 // Of these, the slots that only materials with lobes have.
 const uint texturesOfLobes = texturesMaterials & ~(texturesBaseColour | texturesEmission);
 // Slots whose levels are sRGB.
-const uint texturesSrgb =
-    texturesBaseColour + texturesEmission + (1u << slotDielectricColour) + (1u << slotSheenColour);
+const uint texturesSrgb = texturesBaseColour + texturesEmission + (1u << slotDielectricColour) +
+                          (1u << slotSheenColour) + (1u << slotDiffuseTransmissionColour);
 
 HYALITE_INLINE uint rowsPerTriangle(uint texturing) {
     return rowsPerCoordinates + ((texturing & texturesSecondUv) != 0u ? rowsPerCoordinates : 0u) +
@@ -901,7 +908,7 @@ static_assert(sizeof(InstanceRecord) == 128 && offsetof(InstanceRecord, slack) =
 static_assert(sizeof(PlaceRecord) == 16);
 static_assert(sizeof(SkipNode) == 16);
 static_assert(sizeof(NodePair) == 64 && offsetof(NodePair, right) == 44);
-static_assert(sizeof(MaterialRecord) == 208 && offsetof(MaterialRecord, iridescence) == 192);
+static_assert(sizeof(MaterialRecord) == 224 && offsetof(MaterialRecord, iridescence) == 192);
 static_assert(sizeof(LookupRow) == 16);
 static_assert(sizeof(TextureRow) == 16);
 static_assert(sizeof(TextureRecord) == rowsPerTexture * sizeof(TextureRow));

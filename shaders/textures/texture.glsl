@@ -248,6 +248,10 @@ MaterialRecord wornMaterial(MaterialRecord material, uint parameter, vec3 texel,
     if (isSlot(parameter, slotIridescenceThickness))
         material.iridescenceThickness =
             mixture(material.iridescenceThicknessMinimum, material.iridescenceThickness, texel.x);
+    if (isSlot(parameter, slotDiffuseTransmission))
+        material.diffuseTransmission *= texel.x;
+    if (isSlot(parameter, slotDiffuseTransmissionColour))
+        material.diffuseTransmissionColour *= texel;
     if (isSlot(parameter, slotAnisotropy))
         return anisotropicMaterial(material, texel);
     return material;

@@ -49,7 +49,7 @@ Material gltf() {
 
 /// One of each feature.
 std::vector<Material> materials() {
-    std::vector<Material> all(13, gltf());
+    std::vector<Material> all(16, gltf());
     all[1].metallic = 0.5f;
     all[1].anisotropy = 0.7f;
     all[1].anisotropyRotation = 0.8f;
@@ -80,6 +80,15 @@ std::vector<Material> materials() {
     all[11].transmission = 0.8f;
     all[12] = all[11];
     all[12].isThin = true;
+    all[13].diffuseTransmission = 0.7f;
+    all[13].diffuseTransmissionColour = {0.4f, 0.9f, 0.2f};
+    all[13].isThin = true;
+    all[13].clearcoat = 0.3f;
+    all[14] = all[13];
+    all[14].isThin = false;
+    all[14].absorption = {0.5f, 0.2f, 0.9f};
+    all[15] = all[14];
+    all[15].transmission = 0.4f;
     return all;
 }
 

@@ -104,6 +104,9 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
         const Vec head = squared((n - 1.0) / (n + 1.0)) * Vec(material.dielectricColour);
         plasticReflectance_ = glm::min(head, Vec(1.0)) * double{material.dielectricWeight};
         plasticGrazing_ = material.dielectricWeight;
+        diffuselyTransmitted_ =
+            double{material.diffuseTransmission} * Vec(material.diffuseTransmissionColour);
+        diffuselyReflected_ = 1.0 - material.diffuseTransmission;
         coat_ = isInside ? 0.0 : material.clearcoat;
         coatRoughness_ = material.clearcoatRoughness;
         sheen_ = material.sheenColour;
@@ -140,6 +143,10 @@ Bsdf::Bsdf(const Substance &substance, double indexRatio, bool isBehind) {
     cosineChance_ = std::max(0.0, 1.0 - coatChance_ - glassChance_ - facetChance_ - thinChance_);
     if (glass_ == 1.0)
         cosineChance_ = 0.0;
+    if (plastic_ > 0.0 && diffuselyTransmitted_ != Vec(0.0)) {
+        oppositeChance_ = 0.5 * cosineChance_;
+        cosineChance_ -= oppositeChance_;
+    }
 }
 
 Vec Bsdf::evaluateMetal(const Vec &view, const Vec &light) const {
@@ -160,17 +167,22 @@ Vec Bsdf::evaluateMetal(const Vec &view, const Vec &light) const {
     return fresnel * reflectedByFacets(view, light, alphaOf(roughness_)) + late * share;
 }
 
-Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
-    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+/// The share of the base below a plastic surface that light leaves at this cosine, on either side.
+double Bsdf::baseShare(const Vec &view, double lightCosine) const {
     const double r = std::max({plasticReflectance_.x, plasticReflectance_.y, plasticReflectance_.z});
     const double g = plasticGrazing_;
-    const double share = lost(plasticEnergy(view.z), directionalEnergy(light.z, roughness_).of(r, g),
-                              averageEnergy(roughness_).of(r, g), light.z);
-    Vec fresnel = schlickFresnel(cosine, plasticReflectance_, g);
+    const double opaque = plastic_ > 0.0 ? 1.0 - thin_ / plastic_ : 1.0;
+    return opaque * lost(plasticEnergy(view.z), directionalEnergy(lightCosine, roughness_).of(r, g),
+                         averageEnergy(roughness_).of(r, g), lightCosine);
+}
+
+Vec Bsdf::evaluatePlastic(const Vec &view, const Vec &light) const {
+    const double cosine = std::min(glm::dot(view, glm::normalize(view + light)), 1.0);
+    Vec fresnel = schlickFresnel(cosine, plasticReflectance_, plasticGrazing_);
     if (plasticFilm_ != nullptr)
         fresnel = glm::mix(fresnel, plasticFilm_->at(cosine), filmShare_);
-    const double opaque = plastic_ > 0.0 ? 1.0 - thin_ / plastic_ : 1.0;
-    return fresnel * reflectedByFacets(view, light, alphaOf(roughness_)) + colour_ * (share * opaque);
+    return fresnel * reflectedByFacets(view, light, alphaOf(roughness_)) +
+           colour_ * (diffuselyReflected_ * baseShare(view, light.z));
 }
 
 /// What facets of plastic keep from what lies below.
@@ -262,8 +274,13 @@ Vec Bsdf::evaluate(const Vec &view, const Vec &light) const {
     Vec sum(0.0);
     if (glass_ > 0.0)
         sum += glass_ * evaluateGlass(view, light);
-    if (light.z < 0.0)
-        return underSheenAndCoat(view, light, thin_ > 0.0 ? sum + thin_ * evaluateThin(view, light) : sum);
+    if (light.z < 0.0) {
+        if (thin_ > 0.0)
+            sum += thin_ * evaluateThin(view, light);
+        if (oppositeChance_ > 0.0)
+            sum += plastic_ * diffuselyTransmitted_ * baseShare(view, -light.z);
+        return underSheenAndCoat(view, light, sum);
+    }
     if (diffuse_ > 0.0)
         sum += diffuse_ * colour_ * light.z / pi;
     if (metal_ > 0.0)
@@ -287,6 +304,7 @@ double Bsdf::density(const Vec &view, const Vec &light) const {
                    reflectionDensity(view, light, alphaOf(roughness_));
         return sum;
     }
+    sum += oppositeChance_ * -light.z / pi;
     if (thinChance_ > 0.0 && light.z < 0.0)
         sum += thinChance_ * reflectionDensity(view, {light.x, light.y, -light.z}, alphaOf(roughness_));
     if (glassChance_ == 0.0 || light.z == 0.0)
@@ -306,6 +324,9 @@ std::optional<Vec> Bsdf::sample(const Vec &view, Generator &generator) const {
     if (choice < cosineChance_)
         return cosineDirection(generator);
     choice -= cosineChance_;
+    if (choice < oppositeChance_)
+        return -cosineDirection(generator);
+    choice -= oppositeChance_;
     if (choice < facetChance_)
         return reflectedByRandomFacet(view, alphaOf(roughness_), generator);
     choice -= facetChance_;

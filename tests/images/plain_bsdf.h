@@ -9,7 +9,7 @@
 // 2019); and the coat leaves 1 - coat E(view).
 //
 // A material of glTF is the specification's, with the first three of these choices, and with facets of thin glass as of
-// thick. Of a film, the colour below gets what the film does not reflect of the view, and spreads it as without one.
+// thick. A base that lets light through has the same plastic on both sides. Of a film, the colour below gets what the film does not reflect of the view, and spreads it as without one.
 #pragma once
 
 #include "tests/images/plain_microfacets.h"
@@ -40,6 +40,7 @@ class Bsdf {
 
   private:
     [[nodiscard]] Vec evaluateMetal(const Vec &view, const Vec &light) const;
+    [[nodiscard]] double baseShare(const Vec &view, double lightCosine) const;
     [[nodiscard]] Vec evaluatePlastic(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluateGlass(const Vec &view, const Vec &light) const;
     [[nodiscard]] Vec evaluateThin(const Vec &view, const Vec &light) const;
@@ -74,6 +75,8 @@ class Bsdf {
     double indexRatio_ = 1.0;
     Vec plasticReflectance_{0.0}; ///< head on
     double plasticGrazing_ = 1.0;
+    double diffuselyReflected_ = 1.0; ///< the base's share
+    Vec diffuselyTransmitted_{0.0};   ///< the same of what leaves on the other side, with its colour
     double roughness_ = 0.0;
     double coatRoughness_ = 0.0;
 
@@ -83,6 +86,7 @@ class Bsdf {
     double glassChance_ = 0.0;
     double coatChance_ = 0.0;
     double thinChance_ = 0.0;
+    double oppositeChance_ = 0.0; ///< to the other side, by the cosine
 };
 
 } // namespace hyalite::core::testing::plain

@@ -7,7 +7,7 @@ namespace hyalite::core::testing::plain {
 
 Media::Media(const Scene &scene) : scene_(&scene), counts_(scene.materials.size(), 0) {
     for (const Sphere &sphere : scene.spheres)
-        if (isGlass(scene.materials[sphere.materialIndex]) &&
+        if (holdsMedium(scene.materials[sphere.materialIndex]) &&
             glm::distance(scene.camera.position, sphere.centre) < sphere.radius)
             counts_[sphere.materialIndex] += sphere.inwardNormal ? -1 : 1;
 }

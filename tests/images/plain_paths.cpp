@@ -116,7 +116,7 @@ class Path {
             return false;
 
         const bool isBehind = glm::dot(direction_, point.geometricNormal) > 0.0;
-        const bool isPassable = isGlass(*substance.material);
+        const bool isPassable = holdsMedium(*substance.material);
         std::optional<Crossing> sides;
         if (isPassable)
             sides = crossing(media_, materialIndex, !isBehind);
@@ -127,7 +127,8 @@ class Path {
             return isPassable ? passGlass(point, *sides, isBehind) : reflect(point, substance);
         }
         const bool isThinGlass = substance.material->isThin && substance.material->transmission > 0.0f;
-        if (isBehind && !isPassable && !isThinGlass && !substance.material->twoSided &&
+        const bool isLeaf = substance.material->diffuseTransmission > 0.0f;
+        if (isBehind && !isPassable && !isThinGlass && !isLeaf && !substance.material->twoSided &&
             !substance.material->reflectsBehind && substance.material->kind != MaterialKind::Conductor)
             return false; // black from behind
         if (isBehind) {

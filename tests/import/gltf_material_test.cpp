@@ -147,6 +147,30 @@ TEST_F(GltfMaterial, ReadsIridescentFilms) {
     EXPECT_TRUE(load(maker).meshReports.at(0).warnings.empty());
 }
 
+TEST_F(GltfMaterial, ReadsDiffuseTransmission) {
+    const Material material = read(R"({"extensions": {"KHR_materials_diffuse_transmission": {
+        "diffuseTransmissionFactor": 0.75, "diffuseTransmissionTexture": {"index": 0},
+        "diffuseTransmissionColorFactor": [0.5, 0.25, 1], "diffuseTransmissionColorTexture": {"index": 0}},
+        "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 2,
+        "attenuationColor": [0.5, 1, 1]}}})");
+    EXPECT_EQ(material.diffuseTransmission, 0.75f);
+    EXPECT_EQ(material.diffuseTransmissionColour, glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(material.textures[layout::slotDiffuseTransmission]->channel, Channel::Alpha);
+    EXPECT_EQ(material.textures[layout::slotDiffuseTransmissionColour]->channel, Channel::Red);
+    EXPECT_TRUE(holdsMedium(material));
+    EXPECT_FALSE(isGlass(material));
+    EXPECT_EQ(scatteringOfGltf(material), layout::scattersAtGltf | layout::scattersAtDiffuseTransmission);
+    const Material leaf = read(R"({"extensions": {"KHR_materials_diffuse_transmission": {
+        "diffuseTransmissionFactor": 0.5}}})");
+    EXPECT_EQ(leaf.diffuseTransmissionColour, glm::vec3(1.0f));
+    EXPECT_FALSE(holdsMedium(leaf) || leaf.isCulled);
+    const Material none = read(R"({"extensions": {"KHR_materials_diffuse_transmission": {
+        "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorTexture": {"index": 0}}}})");
+    EXPECT_FALSE(none.textures[layout::slotDiffuseTransmission] ||
+                 none.textures[layout::slotDiffuseTransmissionColour]);
+    EXPECT_EQ(scatteringOfGltf(none), layout::scattersAtGltf);
+}
+
 TEST_F(GltfMaterial, OfRefractiveIndexZeroReflectsEverythingHeadOn) {
     const Material material = read(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})");
     const double n = static_cast<double>(material.refractiveIndex);

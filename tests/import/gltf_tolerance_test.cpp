@@ -136,6 +136,8 @@ TEST_F(GltfTolerance, FactorsAreClamped) {
         "baseColorFactor": [1.5, 0.5, 0, 1]}, "extensions": {"KHR_materials_ior": {"ior": 0.99999},
         "KHR_materials_clearcoat": {"clearcoatFactor": 3}, "KHR_materials_sheen": {"sheenColorFactor": [0, 0, 9]},
         "KHR_materials_transmission": {"transmissionFactor": 1.1},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 7,
+            "diffuseTransmissionColorFactor": [-1, 0.5, 2]},
         "KHR_materials_iridescence": {"iridescenceFactor": 1.5, "iridescenceIor": 0.8,
             "iridescenceThicknessMaximum": -3, "iridescenceThicknessMinimum": 1e9},
         "KHR_materials_specular": {"specularFactor": -2, "specularColorFactor": [-1, 2, 3]},
@@ -151,6 +153,8 @@ TEST_F(GltfTolerance, FactorsAreClamped) {
     EXPECT_EQ(material.clearcoat, 1.0f);
     EXPECT_EQ(material.sheenColour, glm::vec3(0, 0, 1));
     EXPECT_EQ(material.transmission, 1.0f);
+    EXPECT_EQ(material.diffuseTransmission, 1.0f);
+    EXPECT_EQ(material.diffuseTransmissionColour, glm::vec3(0, 0.5f, 1));
     EXPECT_EQ(material.iridescence, 1.0f);
     EXPECT_EQ(material.iridescenceIndex, 1.0f);
     EXPECT_EQ(material.iridescenceThickness, 0.0f);
@@ -160,7 +164,7 @@ TEST_F(GltfTolerance, FactorsAreClamped) {
     EXPECT_EQ(material.dielectricColour, glm::vec3(0, 2, 3));
     expectWarning(loaded, {"/materials/0/pbrMetallicRoughness/baseColorFactor/0: 1.5 counts as 1; "
                            "allowed: from 0 to 1",
-                           " (and 14 more)"});
+                           " (and 17 more)"});
     maker.json["materials"][0]["emissiveFactor"] = {1, 1};
     EXPECT_TRUE(refusal(maker).starts_with("/materials/0/emissiveFactor: ")) << refusal(maker);
 }

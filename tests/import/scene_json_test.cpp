@@ -98,6 +98,8 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(velvet.iridescenceIndex, 1.75f);
     EXPECT_EQ(velvet.iridescenceThickness, 250.0f);
     EXPECT_EQ(velvet.iridescenceThicknessMinimum, 700.0f);
+    EXPECT_EQ(velvet.diffuseTransmission, 0.1875f);
+    EXPECT_EQ(velvet.diffuseTransmissionColour, glm::vec3(0.5f, 0.25f, 1.0f));
     EXPECT_TRUE(velvet.textures[layout::slotAnisotropy] && velvet.textures[layout::slotClearcoatNormal]);
     ASSERT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.spheres[0].centre, glm::dvec3(4, 5, 6));

@@ -265,7 +265,8 @@ const std::vector<InputRow> inputRows{
      "float metal, float metallic, float plastic, float transmission, float clearcoat, float opacity, "
      "float alphaCutoff, float clearcoatNormalStrength, float dielectricWeight, float normalReflectance, "
      "float anisotropy, float white, float grazing, float normal, float power, float energy, float average, "
-     "float wide, float factor, float pdf, float areaPdf, float probability, float emitterPdf",
+     "float wide, float factor, float diffuseTransmission, float pdf, float areaPdf, float probability, "
+     "float emitterPdf",
      by(share)},
     {"float energyPlace.position",
      by([](S &s) { return s.draw.chance(2) ? share(s.draw) : anyNumber(s.draw); })},
@@ -300,6 +301,7 @@ const std::vector<InputRow> inputRows{
      by([](S &s) { return (s.draw.chance(2) ? -1.0f : 1.0f) / (s.draw.unit() + 1e-6f); })},
     {"vec3 colour, vec3 texel, vec3 average, vec3 metalAverage, vec3 albedo, vec3 segmentTint, "
      "vec3 averageReflectance, vec3 dielectricColour, vec3 sheenColour, vec3 dielectric, vec3 reflectance, "
+     "vec3 diffuseTransmissionColour, vec3 colourBeyond, "
      "vec3 schlickReflectance.normal, "
      "vec3 LookupRow.value",
      by(colour)},

@@ -95,6 +95,8 @@ void addMaterials(Scene &scene, Draw &draw) {
             material.iridescenceIndex = 1.0f + draw.unit();
             material.iridescenceThickness = draw.chance(8) ? 0.0f : 900.0f * draw.unit();
             material.iridescenceThicknessMinimum = 900.0f * draw.unit();
+            material.diffuseTransmission = draw.chance(2) ? 0.0f : draw.unit();
+            material.diffuseTransmissionColour = drawColour(draw);
         }
 }
 

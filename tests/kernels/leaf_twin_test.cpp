@@ -28,8 +28,8 @@ const std::map<std::string, std::vector<std::size_t>> constantResults{
     {"allAround", {0, 1, 2}},     // the eye
     {"makeGlass", {12}},          // the kind
     {"makeSheen", {12}},
-    {"makeClearcoat", {25, 26, 27, 46}}, // the coat's reflectance, and the probability of a facet
-    {"makeCoatOf", {25, 26, 27, 46}},
+    {"makeClearcoat", {25, 26, 27, 50}}, // the coat's reflectance, and the probability of a facet
+    {"makeCoatOf", {25, 26, 27, 50}},
     {"evalSheen", {3}},         // uniform
     {"sphereTangent", {1}},     // alongU is level
     {"hitNormals", {3, 7, 11}}, // padding

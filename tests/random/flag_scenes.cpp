@@ -85,6 +85,7 @@ TestScene textured(std::uint32_t slot) {
         material.anisotropy = 0.5f;
         material.iridescence = 0.8f;
         material.iridescenceIndex = 1.8f;
+        material.diffuseTransmission = 0.5f;
     }
     scene.textures = {image()};
     material.textures[slot] = TextureUse{};
@@ -156,6 +157,11 @@ void addScattering(Rows &rows) {
             m.metallic = 1.0f;
             m.iridescence = 1.0f;
             m.iridescenceIndex = 2.0f;
+        });
+    add("scattersAtDiffuseTransmission", scattersAtDiffuseTransmission, scattersAtGltf, MaterialKind::Gltf,
+        [](TestScene &scene, Material &m) {
+            m.diffuseTransmission = 0.8f;
+            scene.lights.push_back(light(LightKind::Point, {0, 0, -1}));
         });
     const auto makeThin = [](TestScene &scene, Material &m) {
         m.transmission = 0.9f;

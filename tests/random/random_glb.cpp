@@ -159,6 +159,12 @@ class GlbDraws {
             maybe(it, "iridescenceTexture", 0.2, texture);
             maybe(it, "iridescenceThicknessTexture", 0.3, texture);
         });
+        extension("KHR_materials_diffuse_transmission", 0.2, [&](json &it) {
+            maybe(it, "diffuseTransmissionFactor", 0.9, fraction);
+            maybe(it, "diffuseTransmissionColorFactor", 0.5, colour);
+            maybe(it, "diffuseTransmissionTexture", 0.2, texture);
+            maybe(it, "diffuseTransmissionColorTexture", 0.3, texture);
+        });
         extension("KHR_materials_pbrSpecularGlossiness", 0.1, [&](json &it) {
             maybe(it, "specularFactor", 0.5, colour);
             maybe(it, "glossinessFactor", 0.5, fraction);

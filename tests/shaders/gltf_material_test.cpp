@@ -1,4 +1,4 @@
-// Materials of glTF: sheen, thin glass, anisotropy and coats keep energy, and draw directions with the density that
+// Materials of glTF: sheen, thin glass, anisotropy, coats and diffuse transmission keep energy, and draw directions with the density that
 // they say they have. What they look like is judged by the plain path tracer (tests/images/plain_materials_test.cpp).
 #include "tests/fixtures/bsdf_fixture.h"
 
@@ -182,6 +182,64 @@ TEST(Anisotropy, ItsDistributionCoversTheSurface) {
     EXPECT_NEAR(sum * 2.0 * pi / (steps * 200.0), 1.0, 1e-3);
 }
 
+layout::MaterialRecord leaf(double alpha, float transmission, float colour = 1.0f) {
+    layout::MaterialRecord material = gltf(alpha, 1.0f);
+    material.kindAndSides |= layout::materialIsThin;
+    material.diffuseTransmission = transmission;
+    material.diffuseTransmissionColour = glm::vec3(colour);
+    return material;
+}
+
+TEST(DiffuseTransmission, LosesNoLight) {
+    for (const float transmission : {0.25f, 1.0f})
+        for (const double alpha : {0.0016, 0.25, 1.0})
+            for (const double cosine : {0.15, 0.5, 1.0}) {
+                const Albedo albedo = albedoOf(leaf(alpha, transmission), viewAt(cosine), 841, 1.0);
+                EXPECT_NEAR(albedo.mean, 1.0, 0.004 + 5.0 * albedo.error)
+                    << transmission << ", " << alpha << ", " << cosine;
+            }
+}
+
+// The base's light is divided between both sides, in equal directions.
+TEST(DiffuseTransmission, MirrorsTheBaseAtTheSurface) {
+    const Direction view = viewAt(0.7);
+    const Bsdf<double> half = seenFrom(leaf(0.25, 0.25f, 0.5f), view);
+    const Bsdf<double> opaque = seenFrom(leaf(0.25, 0.0f), view);
+    const Bsdf<double> facets = seenFrom(leaf(0.25, 1.0f), view); // no base on this side
+    for (const Direction &light : {viewAt(0.9), Direction(0.0, 0.8, 0.6), Direction(-0.8, 0.0, 0.6)}) {
+        const Direction beyond(light.x, light.y, -light.z);
+        const double once = evalBsdf(scene, facets, light).value.x;
+        const double base = evalBsdf(scene, opaque, light).value.x - once;
+        EXPECT_GT(base, 0.1);
+        EXPECT_NEAR(evalBsdf(scene, half, light).value.x - once, 0.75 * base, 1e-7);
+        EXPECT_NEAR(evalBsdf(scene, half, beyond).value.x, 0.25 * 0.5 * base, 1e-7);
+        EXPECT_EQ(evalBsdf(scene, opaque, beyond).value.x, 0.0);
+    }
+}
+
+TEST(DiffuseTransmission, IsReciprocal) {
+    const layout::MaterialRecord material = leaf(0.16, 0.5f);
+    const Direction above = viewAt(0.8);
+    const Direction below(0.0, std::sqrt(1.0 - 0.09), -0.3);
+    const Direction fromBelow(below.x, below.y, -below.z);
+    // Seen from below, the surface is turned over.
+    const double there = evalBsdf(scene, seenFrom(material, above), below).value.x / 0.3;
+    const double back =
+        evalBsdf(scene, seenFrom(material, fromBelow), {above.x, above.y, -above.z}).value.x / 0.8;
+    EXPECT_NEAR(there, back, 1e-7);
+}
+
+TEST(DiffuseTransmission, IsTheDiffuseShareOfWhatPasses) {
+    layout::MaterialRecord paper = leaf(0.16, 0.5f);
+    paper.transmission = 0.5f;
+    const Bsdf<double> bsdf = seenFrom(paper, viewAt(0.8));
+    for (const Direction &light : {Direction(-0.6, 0.0, -0.8), Direction(0.6, 0.0, -0.8)}) {
+        const Direction value = evalBsdf(scene, bsdf, light).value;
+        const double passedByFacets = evalThin(scene, bsdf, light).value.x;
+        EXPECT_NEAR(diffuseShare(scene, bsdf, light, value).x, 1.0 - passedByFacets / value.x, 1e-6);
+    }
+}
+
 TEST(GltfDensity, IsThatOfTheDirectionsDrawn) {
     layout::MaterialRecord cloth = gltf(0.25, 0.5f);
     cloth.sheenColour = glm::vec3(1.0f);
@@ -191,6 +249,7 @@ TEST(GltfDensity, IsThatOfTheDirectionsDrawn) {
         EXPECT_LT(chiSquareOf(seenFrom(cloth, view, 0.01), 822), 4.5) << cosine;
         EXPECT_LT(chiSquareOf(seenFrom(thinGlass(0.25), view, 0.5, 1.0), 823), 4.5) << cosine;
         EXPECT_LT(chiSquareOf(stretched(0.16, 0.7f, view), 824), 4.5) << cosine;
+        EXPECT_LT(chiSquareOf(seenFrom(leaf(0.25, 0.6f), view), 825), 4.5) << cosine;
     }
 }
 

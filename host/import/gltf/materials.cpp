@@ -43,10 +43,12 @@ class MaterialReader {
         readSheen();
         readAnisotropy();
         readIridescence();
+        readDiffuseTransmission();
         material_.isUnlit = extensionOf(object_, "KHR_materials_unlit").has_value();
         const bool isDoubleSided = object_.boolean("doubleSided", false);
         material_.twoSided = isDoubleSided;
-        material_.isCulled = !isDoubleSided && material_.transmission == 0.0f && material_.isThin;
+        material_.isCulled = !isDoubleSided && material_.transmission == 0.0f &&
+                             material_.diffuseTransmission == 0.0f && material_.isThin;
         return std::move(material_);
     }
 
@@ -272,6 +274,19 @@ class MaterialReader {
         wear(layout::slotIridescenceThickness, *film, "iridescenceThicknessTexture", Channel::Green);
     }
 
+    void readDiffuseTransmission() {
+        const auto diffuse = extensionOf(object_, "KHR_materials_diffuse_transmission");
+        if (!diffuse)
+            return;
+        const glm::vec3 tint = colour(*diffuse, "diffuseTransmissionColorFactor", limits::fraction, 1.0);
+        material_.diffuseTransmission = number(*diffuse, "diffuseTransmissionFactor", limits::fraction, 0.0);
+        if (material_.diffuseTransmission == 0.0f)
+            return;
+        material_.diffuseTransmissionColour = tint;
+        wear(layout::slotDiffuseTransmission, *diffuse, "diffuseTransmissionTexture", Channel::Alpha);
+        wear(layout::slotDiffuseTransmissionColour, *diffuse, "diffuseTransmissionColorTexture");
+    }
+
     const Document &document_;
     JsonNode node_;
     JsonObject object_;
@@ -305,13 +320,13 @@ nlohmann::json descriptionOf(const JsonNode &node) {
 
 /// Lets equal volumes be one where there are more than `path` tells apart, and makes those thin that are beyond.
 void limitVolumes(const Document &document, Materials &materials) {
-    if (std::cmp_less_equal(std::ranges::count_if(materials.list, isGlass), limits::mediumCount))
+    if (std::cmp_less_equal(std::ranges::count_if(materials.list, holdsMedium), limits::mediumCount))
         return;
     std::map<nlohmann::json, std::uint32_t> volumes;
     std::uint32_t index = 0;
     for (const JsonNode &node : elementsOf(document.top(), "materials")) {
         Material &material = materials.list[index];
-        if (isGlass(material)) {
+        if (holdsMedium(material)) {
             const auto [alike, isNew] = volumes.try_emplace(descriptionOf(node), index);
             materials.shownAs[index] = alike->second;
             if (!isNew || volumes.size() > limits::mediumCount) {
