@@ -204,12 +204,16 @@ void markNodes(std::bitset<count> &nodes, std::size_t first, std::size_t last, d
 
 } // namespace
 
-void GlassNodes::addIndices(double before, double beyond) {
-    if (before == beyond)
-        return;
-    const double place = leaves::indexPosition<double>(before / beyond) * static_cast<double>(indexCount - 1);
-    const std::size_t first = before > beyond ? indexCount : 0;
-    markNodes(layers, first, first + indexCount - 1, place, place);
+void GlassNodes::addIndices(const IndexSpan &before, const IndexSpan &beyond) {
+    const double least = before.least / beyond.most;
+    const double most = before.most / beyond.least;
+    const auto placeOf = [](double eta) {
+        return leaves::indexPosition<double>(eta) * static_cast<double>(indexCount - 1);
+    };
+    if (least < 1.0)
+        markNodes(layers, 0, indexCount - 1, placeOf(std::min(most, 1.0)), placeOf(least));
+    if (most > 1.0)
+        markNodes(layers, indexCount, 2 * indexCount - 1, placeOf(std::max(least, 1.0)), placeOf(most));
 }
 
 void GlassNodes::addRoughness(double least, double most) {

@@ -13,14 +13,20 @@ namespace hyalite::core {
 /// second.
 [[nodiscard]] std::vector<layout::LookupRow> makeEnergyTexels();
 
+/// The refractive indices of a medium for all waves, in [1, 10].
+struct IndexSpan {
+    double least;
+    double most;
+};
+
 /// The part of the table of rough glass that a scene reads.
 struct GlassNodes {
     /// By the index, for light from the thinner and the denser side.
     std::bitset<2 * layout::energyIndices> layers;
     std::bitset<layout::energyRoughnesses> roughnesses;
 
-    /// For light from the refractive index `before` to another one, `beyond`; both in [1, 10].
-    void addIndices(double before, double beyond);
+    /// For light from one medium to another; of one wave it has one of the indices of each.
+    void addIndices(const IndexSpan &before, const IndexSpan &beyond);
     /// For roughnesses in [least, most], within [0, 1].
     void addRoughness(double least, double most);
 };

@@ -141,6 +141,16 @@ void packGltf(const Material &material, layout::MaterialRecord &record) {
     record.anisotropySine = static_cast<float>(std::sin(rotation));
 }
 
+/// The factor of 1 / wavelength^2 in Cauchy's equation, in square micrometres, from Abbe's number: the index without 1,
+/// divided by what it grows by from the C line of hydrogen to its F line. KHR_materials_dispersion.
+float dispersionOf(const Material &material) {
+    constexpr double squaredWaveNumberC = 1.0 / (0.65627 * 0.65627);
+    constexpr double squaredWaveNumberF = 1.0 / (0.48613 * 0.48613);
+    const double growth = (static_cast<double>(material.refractiveIndex) - 1.0) *
+                          static_cast<double>(material.dispersion) / 20.0;
+    return static_cast<float>(growth / (squaredWaveNumberF - squaredWaveNumberC));
+}
+
 layout::MaterialRecord packMaterial(const Material &material) {
     layout::MaterialRecord record{};
     for (const MaterialRow &row : materialTable)
@@ -166,9 +176,21 @@ layout::MaterialRecord packMaterial(const Material &material) {
         record.normalReflectance = std::min(2.0f * material.specular * (ratio * ratio), 1.0f);
         record.clearcoatAlpha = leaves::alphaOf(material.clearcoatRoughness);
     }
+    record.dispersion = dispersionOf(material);
     if (material.kind == MaterialKind::Gltf)
         packGltf(material, record);
     return record;
+}
+
+/// The refractive indices of a material for all waves.
+IndexSpan indicesOf(const Material &material) {
+    leaves::MaterialRecord<double> record{};
+    record.refractiveIndex = static_cast<double>(material.refractiveIndex);
+    record.dispersion = static_cast<double>(dispersionOf(material));
+    const auto indexAt = [&](double wavelength) {
+        return leaves::indexFor(record, leaves::waveOf(wavelength).bend);
+    };
+    return {indexAt(leaves::longestWavelength<double>), indexAt(leaves::shortestWavelength<double>)};
 }
 
 /// The table nodes for rough glass between any two of the scene's media. None where there are more media than the path
@@ -177,10 +199,10 @@ GlassNodes glassNodesOf(const Scene &scene) {
     GlassNodes nodes;
     if (std::ranges::count_if(scene.materials, holdsMedium) > std::int64_t{layout::maxMedia})
         return nodes;
-    std::vector<double> indices = {1.0};
+    std::vector<IndexSpan> indices = {{1.0, 1.0}};
     for (const Material &material : scene.materials) {
         if (holdsMedium(material))
-            indices.push_back(static_cast<double>(material.refractiveIndex));
+            indices.push_back(indicesOf(material));
         if (!isGlass(material))
             continue;
         const double roughness = std::sqrt(static_cast<double>(leaves::alphaOf(material.roughness)));
@@ -188,8 +210,8 @@ GlassNodes glassNodesOf(const Scene &scene) {
         const bool isGlossiness = isTextured && material.isSpecularGlossy;
         nodes.addRoughness(isTextured ? 0.0 : roughness, isGlossiness ? 1.0 : roughness);
     }
-    for (const double before : indices)
-        for (const double beyond : indices)
+    for (const IndexSpan &before : indices)
+        for (const IndexSpan &beyond : indices)
             nodes.addIndices(before, beyond);
     return nodes;
 }

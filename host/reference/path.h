@@ -42,9 +42,9 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
 
   private:
     using Base = SpecularPath<Real, Counter>;
-    using Base::beginPath, Base::enterMedia, Base::crossingOf, Base::isSpecularHere, Base::mediumIndex,
-        Base::reflect;
-    using Base::scatterPdf_, Base::mediaInside_, Base::counts_, Base::counter_;
+    using Base::beginPath, Base::enterMedia, Base::crossingOf, Base::disperse, Base::isReflectedWhole,
+        Base::waveOfSample, Base::isSpecularHere, Base::mediumIndex, Base::reflect;
+    using Base::scatterPdf_, Base::mediaInside_, Base::isDispersed_, Base::counts_, Base::counter_;
     using Base::scatterSmoothDielectric, Base::traceEvent, Base::traceRay, Base::transmittance;
     using Base::scene_, Base::pixel_, Base::sampleIndex_, Base::depth_, Base::throughput_,
         Base::transparency_, Base::light_;
@@ -208,12 +208,16 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         const std::uint32_t primitive = hit.primitive;
         const Crossing crossing = holdsMedium(scene_, material)
                                       ? crossingOf(materialIndex, !isBehind)
-                                      : Crossing{mediaInside_, mediaInside_, Real(1), true};
+                                      : Crossing{mediaInside_, mediaInside_, Real(1), true, false};
+        if (crossing.isDispersing && !isReflectedWhole(crossing, true))
+            disperse();
         const Vec2<Real> lobe = lobeChoice();
         const SurfaceAxes<Real> axes =
             hitAxes(scene_, hit, ray.origin, ray.direction, material, surface.normal, isBehind);
-        const Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
-                                               surface.geometricNormal, axes, isBehind, crossing.eta, lobe.x);
+        Bsdf<Real> bsdf = makeBsdf<Real>(scene_, material, ray.direction, surface.normal,
+                                         surface.geometricNormal, axes, isBehind, crossing.eta, lobe.x);
+        if (crossing.isDispersing && !isDispersed_)
+            bsdf.tint = bsdf.tint * waveOfSample().colour;
 
         litPoint_ = {surface.position, surface.normal,
                      isLitFromBehind<Real>(scene_, scene_.fetchMaterial(materialIndex))};
@@ -256,6 +260,8 @@ template <class Real, class Counter = NoCounter> class PathIntegrator : public S
         const bool isPossible = scattered.pdf > 0 && isBeyond == (wi.z <= 0);
         mediaInside_ = isBeyond ? crossing.beyond : crossing.before;
         scatterPdf_ = isPossible ? scattered.pdf : Real(0);
+        if (crossing.isDispersing && isBeyond && bsdf.kind == bsdfGlass)
+            isDispersed_ = true;
         if (!(isWindow && isBeyond))
             transparency_.endSeeingThrough();
         if (light_.areKept())

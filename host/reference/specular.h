@@ -42,6 +42,7 @@ template <class Real, class Counter> class SpecularPath {
         sampleIndex_ = sampleIndex;
         throughput_ = Vec3<Real>(Real(1));
         scatterPdf_ = 0;
+        isDispersed_ = false;
         transparency_.begin();
         light_.begin();
         depth_ = 1;
@@ -81,10 +82,32 @@ template <class Real, class Counter> class SpecularPath {
                    : Vec3<Real>(Real(1));
     }
 
+    [[nodiscard]] bool dispersesLight() const {
+        return carriesRadiance_ && (scene_.packed.scattering & layout::scattersAtDispersion) != 0;
+    }
+
+    /// The wave that the sample has where its light is dispersed. The indices of glass are for it from the beginning.
+    [[nodiscard]] Wave<Real> waveOfSample() const {
+        const glm::uvec3 keys = pairKeys(pixel_, scene_.frame.seed, wavelengthPair);
+        return sampleWave(unitFloat<Real>(sampleBits(keys, sampleIndex_).x));
+    }
+
+    /// The path has light of one wavelength from here on.
+    void disperse() {
+        if (!isDispersed_)
+            weaken(waveOfSample().colour);
+        isDispersed_ = true;
+    }
+
     [[nodiscard]] Real mediumIndex(std::uint32_t medium) const {
-        return medium != layout::noMaterial
-                   ? static_cast<Real>(scene_.packed.materials[medium].refractiveIndex)
-                   : Real(1);
+        if (medium == layout::noMaterial)
+            return Real(1);
+        const MaterialRecord<Real> material = scene_.fetchMaterial(medium);
+        return dispersesLight() ? indexFor(material, waveOfSample().bend) : material.refractiveIndex;
+    }
+
+    [[nodiscard]] bool isDispersive(std::uint32_t medium) const {
+        return medium != layout::noMaterial && scene_.packed.materials[medium].dispersion > 0.0f;
     }
 
     [[nodiscard]] Ray<Real> reflect(const Ray<Real> &ray, const Surface<Real> &surface,
@@ -103,7 +126,14 @@ template <class Real, class Counter> class SpecularPath {
         std::uint32_t beyond;
         Real eta;             ///< refractive index before divided by the one beyond
         bool isNullInterface; ///< the same glass is effective on both sides
+        bool isDispersing;    ///< what passes is dispersed
     };
+
+    /// Whether the light is reflected and keeps all its waves: they differ little in how much of them is, unless all of
+    /// some is, on the side of the higher index.
+    [[nodiscard]] static bool isReflectedWhole(const Crossing &crossing, bool isReflected) {
+        return isReflected && crossing.eta < 1;
+    }
 
     [[nodiscard]] Crossing crossingOf(std::uint32_t materialIndex, bool isEntering) const {
         // Glass that is left without having been entered changes nothing: paths begin in what is around the eye.
@@ -112,7 +142,9 @@ template <class Real, class Counter> class SpecularPath {
             isEntering ? enterMedium(before, materialIndex) : leaveMedium(before, materialIndex);
         const std::uint32_t medium = mediumAround(before);
         const std::uint32_t mediumBeyond = mediumAround(beyond);
-        return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond};
+        const bool disperses = dispersesLight() && (isDispersive(medium) || isDispersive(mediumBeyond));
+        return {before, beyond, mediumIndex(medium) / mediumIndex(mediumBeyond), medium == mediumBeyond,
+                disperses};
     }
 
     /// The next ray at smooth glass. It passes straight on if the same glass is effective on both sides; otherwise it
@@ -134,7 +166,10 @@ template <class Real, class Counter> class SpecularPath {
         const Real eta = crossing.eta;
         const DielectricFresnel<Real> glass = fresnelDielectric(ray.direction, facing, eta);
         traceEvent(layout::traceReflectance, glass.reflectance == 1 ? 1 : 0, Vec3<Real>(glass.reflectance));
-        if (unitFloat<Real>(vertexBits(pairChoice).x) < glass.reflectance) {
+        const bool isReflected = unitFloat<Real>(vertexBits(pairChoice).x) < glass.reflectance;
+        if (crossing.isDispersing && !isReflectedWhole(crossing, isReflected))
+            disperse();
+        if (isReflected) {
             mediaInside_ = crossing.before;
             return reflect(ray, surface, facing, primitive);
         }
@@ -171,6 +206,7 @@ template <class Real, class Counter> class SpecularPath {
     Real scatterPdf_ = 0;           ///< of the current ray, per solid angle; 0: direction not sampled
     std::uint32_t mediaInside_ = 0; ///< medium counts: see shaders/bsdf/media.glsl
     bool isRefracted_ = false;      ///< at the last smooth glass
+    bool isDispersed_ = false;      ///< the light is of one wavelength
     RayCounts counts_;
 
   private:

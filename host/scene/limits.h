@@ -26,6 +26,7 @@ inline constexpr Interval power{0.0, 1e30};    ///< per channel
 inline constexpr Interval radiance{0.0, 1e30}; ///< of the background and of surfaces, per channel
 inline constexpr Interval fraction{0.0, 1.0};  ///< albedo, tint, light through glass
 inline constexpr Interval refractiveIndex{1.0, 10.0};
+inline constexpr Interval dispersion{0.0, 20.0};     ///< 20 / Abbe number: the index stays above 1
 inline constexpr Interval conductorIndex{0.0, 20.0}; ///< real and imaginary part, per channel
 inline constexpr Interval absorption{0.0, 1e30};     ///< per unit of length and channel
 inline constexpr Interval priority{-1000, 1000};

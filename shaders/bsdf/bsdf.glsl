@@ -2,6 +2,7 @@
 // its row in each of these functions; integrators ask here, and nowhere else.
 #include "shaders/bsdf/iridescence.glsl"
 #include "shaders/bsdf/bsdf_record.glsl"
+#include "shaders/bsdf/dispersion.glsl"
 #include "shaders/bsdf/diffuse.glsl"
 #include "shaders/bsdf/opaque_ggx.glsl"
 #include "shaders/bsdf/glass_ggx.glsl"

@@ -17,7 +17,7 @@ PathRecord recordOf(const TraversalState traversal, uint stage) {
     record.hitPrimitive = traversal.hit.primitive;
     record.hitRecord = traversal.hit.record;
     record.hitInstance = traversal.hit.instance;
-    record.isLightDimmed = traversal.isDimmed ? 1u : 0u;
+    record.flags = (traversal.isDimmed ? waitingIsDimmed : 0u) | (path.isDispersed ? waitingIsDispersed : 0u);
     record.cursorNode = traversal.cursorNode;
     record.cursorTriangle = traversal.cursorTriangle;
     record.cursorInstance = traversal.cursorInstance;
@@ -63,7 +63,7 @@ void takeRecord(inout TraversalState traversal, const PathRecord record) {
     traversal.hit.primitive = record.hitPrimitive;
     traversal.hit.record = record.hitRecord;
     traversal.hit.instance = record.hitInstance;
-    traversal.isDimmed = record.isLightDimmed != 0u;
+    traversal.isDimmed = (record.flags & waitingIsDimmed) != 0u;
     traversal.cursorNode = record.cursorNode;
     traversal.cursorTriangle = record.cursorTriangle;
     traversal.cursorInstance = record.cursorInstance;
@@ -77,6 +77,7 @@ void takeRecord(inout TraversalState traversal, const PathRecord record) {
     path.key.depth = record.rayDepth;
     path.medium = record.rayMedium;
     path.mediaInside = record.mediaInside;
+    path.isDispersed = (record.flags & waitingIsDispersed) != 0u;
     path.vertex.surface.position = record.surfacePosition;
     path.vertex.surface.error = record.surfaceError;
     path.vertex.surface.normal = record.surfaceNormal;

@@ -14,6 +14,7 @@ const bool lightPassesGlass = false;
 const bool raysHaveTargets = hasEmission;
 const bool hasBounces = true;
 const bool carriesRadiance = true;
+const bool dispersesLight = (scattering & scattersAtDispersion) != 0u;
 const bool hasChains = hasSpecular;
 const bool sendsShadowRays = true;
 const bool goesOn = true;
@@ -226,13 +227,17 @@ Scatterer scattererAt(const Ray ray, const Hit hit) {
     MaterialRecord material = materialHit(hit, fetchMaterial(materialIndex),
                                           texturesOfLobes | texturesBaseColour, path.vertex.surface.position);
     vec3 geometricNormal = surfaceAt().geometricNormal;
-    Crossing crossing = Crossing(path.mediaInside, path.mediaInside, 1.0, true);
+    Crossing crossing = Crossing(path.mediaInside, path.mediaInside, 1.0, true, false);
     if ((scattering & (scattersAtRoughGlass | scattersAtDiffuseTransmission)) != 0u && holdsMedium(material))
         crossing = crossingOf(path.mediaInside, materialIndex, !isBehind);
+    if (crossing.isDispersing && !isReflectedWhole(crossing, true))
+        disperse();
     vec2 lobe = lobeChoice();
     vec3 normal = path.vertex.surface.normal;
     SurfaceAxes axes = hitAxes(hit, ray.origin, ray.direction, material, normal, isBehind);
     Bsdf bsdf = makeBsdf(material, ray.direction, normal, geometricNormal, axes, isBehind, crossing.eta, lobe.x);
+    if (crossing.isDispersing && !path.isDispersed)
+        bsdf.tint = bsdf.tint * waveOfSample().colour;
     bool isWindow = alphaKind == alphaThroughGlass && seesThrough() && isClearGlass(material);
     return Scatterer(bsdf, lobe.y, geometricNormal, crossing, isWindow);
 }
@@ -252,6 +257,8 @@ void sampleScattering(const Scatterer scatterer, vec3 diffuseOfLight, bool isLig
     } else {
         scatterLight(vec3(1.0), false);
     }
+    if (scatterer.crossing.isDispersing && isBeyond && scatterer.bsdf.kind == bsdfGlass)
+        path.isDispersed = true;
     if (!(scatterer.isWindow && isBeyond))
         endSeeingThrough();
     if (hasDielectric)

@@ -45,6 +45,7 @@ struct PathState {
     vec3 throughput;
     uint medium;      // whitted: material of the glass around the ray, or noMaterial
     uint mediaInside; // the glass around the ray, see media.glsl
+    bool isDispersed; // its light is of one wavelength, see dispersion.glsl
     Vertex vertex;
     vec3 lightWeight; // what the light adds if it is visible; whitted: throughput * albedo / pi
     uint lightIndex;
@@ -121,6 +122,7 @@ void askPrimary() {
     path.throughput = vec3(1.0);
     path.key.depth = 1u;
     path.medium = hasDielectric ? frame.mediumAtEye : noMaterial;
+    path.isDispersed = false;
     path.rays.x += 1u;
     askNearest(ray.origin, ray.direction, noPrimitive);
 }

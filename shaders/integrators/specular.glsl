@@ -2,7 +2,7 @@
 // host/reference/specular.h.
 //
 // An integrator defines `carriesRadiance`: throughputs are of radiance, which is larger in glass by the square of the
-// refractive index; those of colours are not.
+// refractive index; those of colours are not. And `dispersesLight`: glass may split what they are of into waves.
 
 uvec2 vertexBits(uint pair) {
     return sampleBits(pairKeys(path.key.pixel, frame.seed, vertexPair(path.key.depth, pair)), path.key.sampleIndex);
@@ -16,7 +16,27 @@ vec3 transmittance(uint mediaInside, float distance) {
     return medium != noMaterial ? expNegative(fetchMaterial(medium).absorption * distance) : vec3(1.0);
 }
 
-float mediumIndex(uint medium) { return medium != noMaterial ? fetchMaterial(medium).refractiveIndex : 1.0; }
+// The wave that the sample has where its light is dispersed. The indices of glass are for it from the beginning.
+Wave waveOfSample() {
+    return sampleWave(
+        unitFloat(sampleBits(pairKeys(path.key.pixel, frame.seed, wavelengthPair), path.key.sampleIndex).x));
+}
+
+// The path has light of one wavelength from here on.
+void disperse() {
+    if (!path.isDispersed)
+        weaken(waveOfSample().colour);
+    path.isDispersed = true;
+}
+
+float mediumIndex(uint medium) {
+    if (medium == noMaterial)
+        return 1.0;
+    MaterialRecord material = fetchMaterial(medium);
+    return dispersesLight ? indexFor(material, waveOfSample().bend) : material.refractiveIndex;
+}
+
+bool isDispersive(uint medium) { return medium != noMaterial && fetchMaterial(medium).dispersion > 0.0; }
 
 // The next segment of the path.
 void continueRay(vec3 origin, vec3 direction, uint excluded) {
@@ -40,6 +60,7 @@ struct Crossing {
     uint beyond;
     float eta;    // refractive index before divided by the one beyond
     bool isNullInterface; // the same glass is effective on both sides
+    bool isDispersing;    // what passes is dispersed
 };
 
 Crossing crossingOf(uint before, uint materialIndex, bool isEntering) {
@@ -47,8 +68,14 @@ Crossing crossingOf(uint before, uint materialIndex, bool isEntering) {
     uint beyond = isEntering ? enterMedium(before, materialIndex) : leaveMedium(before, materialIndex);
     uint medium = mediumAround(before);
     uint mediumBeyond = mediumAround(beyond);
-    return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond);
+    bool disperses = dispersesLight && (isDispersive(medium) || isDispersive(mediumBeyond));
+    return Crossing(before, beyond, divide(mediumIndex(medium), mediumIndex(mediumBeyond)), medium == mediumBeyond,
+                    disperses);
 }
+
+// Whether the light is reflected and keeps all its waves: they differ little in how much of them is, unless all of some
+// is, on the side of the higher index.
+bool isReflectedWhole(Crossing crossing, bool isReflected) { return isReflected && crossing.eta < 1.0; }
 
 // Smooth glass: chooses reflection or refraction with the probability of its share. Inside glass of higher priority the
 // path passes straight through. Returns whether light is refracted.
@@ -69,7 +96,10 @@ bool scatterSmoothDielectric(const Answer answer, const Surface surface,
     float eta = crossing.eta;
     DielectricFresnel glass = fresnelDielectric(direction, facing, eta);
     traceEvent(traceReflectance, glass.reflectance == 1.0 ? 1u : 0u, vec3(glass.reflectance));
-    if (unitFloat(vertexBits(pairChoice).x) < glass.reflectance) {
+    bool isReflected = unitFloat(vertexBits(pairChoice).x) < glass.reflectance;
+    if (crossing.isDispersing && !isReflectedWhole(crossing, isReflected))
+        disperse();
+    if (isReflected) {
         path.mediaInside = crossing.before;
         reflectRay(answer, surface, facing);
         return false;

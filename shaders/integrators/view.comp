@@ -25,6 +25,7 @@ const bool lightPassesGlass = false;
 const bool raysHaveTargets = false;
 const bool hasBounces = view == viewShadow; // a ray to the light
 const bool carriesRadiance = false;
+const bool dispersesLight = false;
 const bool hasChains = view == viewShadow || looksThrough;
 const bool sendsShadowRays = view == viewOcclusion;
 const bool goesOn = false;

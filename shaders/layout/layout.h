@@ -282,8 +282,8 @@ struct MaterialRecord {
     float alphaCutoff; // the surface is not there where its opacity is below; or alphaBlended
     float opacity;     // a factor on those of textures and vertices
     float clearcoatNormalStrength;
-    uint lightGroup; // of what it emits: among the layers of light
-    uint pad1;
+    uint lightGroup;  // of what it emits: among the layers of light
+    float dispersion; // path: how the refractive index grows with 1 / wavelength^2, in micrometre^2
     // glTF: share of the surface that has an iridescent film, its refractive index, and its thickness in nanometres,
     // which a texture mixes with the minimum
     float iridescence;
@@ -341,6 +341,7 @@ const uint scattersAtCoatNormals = 256u; // a clear coat's normals differ from t
 const uint scattersAtUnlit = 512u;
 const uint scattersAtIridescent = 1024u; // films
 const uint scattersAtDiffuseTransmission = 2048u;
+const uint scattersAtDispersion = 4096u; // glass that bends waves apart
 
 // Any-hit tests: bits of constantAnyHit. A hit does not count
 const uint anyHitCutOut = 1u;  // where the opacity of a surface is below a threshold
@@ -788,6 +789,9 @@ struct TraceEvent {
 
 const uint seenFromBehind = 0x80000000u; // against the normal of the input
 
+const uint waitingIsDimmed = 1u;    // the shadow ray has passed glass
+const uint waitingIsDispersed = 2u; // see dispersion.glsl
+
 struct PathRecord {
     vec3 rayOrigin;
     uint stage;
@@ -814,7 +818,7 @@ struct PathRecord {
     uint cursorNode;     // the inner node to visit next, or noNode
     uint cursorTriangle; // the triangle of the leaf to test next, in skip lists as a link has it, or noNode
     uint stackSize;      // subtrees in the stack buffer
-    uint isLightDimmed;  // 1: the shadow ray has passed glass
+    uint flags;          // waiting...
     uint cursorInstance; // whose tree the cursor is in, or noInstance
     uint cursorReturn;   // skip lists: the node after the instance's own
     uint hitInstance;    // of the triangle at the nearest hit so far, or noInstance

@@ -7,6 +7,7 @@
 // | 1         | occlusionPair                    | view `ao`: the direction to the sky                              |
 // | 1 to 96   | vertexPair(depth, pair...)       | path: three at each vertex; views: at a shadow catcher, at glass |
 // | 97 to 128 | lobePair(depth)                  | path: a lobe, at a vertex that scatters                         |
+// | 129       | wavelengthPair                   | path: its wavelength, where dispersion asks for one              |
 // | 1024      | lensPair                         | cameras with a lens: the point on the lens                       |
 // | 24295     | alphaTestPair                    | alpha tests: beside the primitive and the ray, a key of its own  |
 //
@@ -26,6 +27,8 @@ const uint pairsPerVertex = 3u;
 uint vertexPair(uint depth, uint pair) { return 1u + pairsPerVertex * (depth - 1u) + pair; }
 
 uint lobePair(uint depth) { return 1u + pairsPerVertex * maxPathDepth + depth - 1u; }
+
+const uint wavelengthPair = 1u + (pairsPerVertex + 1u) * maxPathDepth;
 
 const uint lensPair = 1024u;
 

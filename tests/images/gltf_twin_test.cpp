@@ -89,6 +89,7 @@ std::vector<Material> materials() {
     all[14].absorption = {0.5f, 0.2f, 0.9f};
     all[15] = all[14];
     all[15].transmission = 0.4f;
+    all[15].dispersion = 1.0f;
     return all;
 }
 
@@ -186,14 +187,20 @@ TEST(GltfTwins, AgreeOnEveryMaterial) {
     scene.materials = materials();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const double x = static_cast<double>(i % 5) - 2.0;
-        scene.spheres.push_back({{x, i < 5 ? -0.6 : 0.6, 0.0}, 0.45, static_cast<std::uint32_t>(i), false});
+        const double y = static_cast<double>(i / 5) - 1.5;
+        scene.spheres.push_back({{x, y, 0.0}, 0.45, static_cast<std::uint32_t>(i), false});
     }
+    const auto lamp = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.emplace_back().emission = glm::vec3(4.0f);
-    scene.meshes.push_back(testing::texturedQuad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, 10));
+    scene.meshes.push_back(testing::texturedQuad({-2, 2.5f, -1}, {4, 0, 0}, {0, 0, 2}, lamp));
     scene.environment.radiance = Image(8, 4);
     for (std::size_t i = 0; i < 32; ++i)
         scene.environment.radiance.pixels()[i] = glm::vec3(0.1f * static_cast<float>(i % 7));
-    expectOnePicture(scene, renderOnCpu(scene).film, 1);
+    const Film wanted = renderOnCpu(scene).film;
+    expectOnePicture(scene, wanted, 1);
+    // Paths that wait between dispatches, in every state.
+    const gpu::RenderConfig inPieces{.steps = 9, .kernel = gpu::findKernel("skip-list")};
+    EXPECT_EQ(differingPixels(renderOnDevice(scene, inPieces).film, wanted), 0u);
 }
 
 void expectTwinsOfTheCrowd(Integrator integrator, std::size_t turn) {

@@ -138,6 +138,10 @@ std::vector<Look> looks() {
     all.push_back(glassLook("FrostedGlass", 1.5f, 0.3f));
     all.push_back(glassLook("RoughDenseGlass", 2.2f, 0.7f));
     all.back().pathCount = 160'000;
+    all.push_back(glassLook("DispersingGlass", 1.6f, 0.0f));
+    all.back().material.dispersion = 1.0f;
+    all.push_back(glassLook("FrostedDispersingGlass", 1.6f, 0.25f));
+    all.back().material.dispersion = 1.0f;
     all.push_back(principled("GlossyPlastic", 0.2f));
     all.push_back(principled("RoughPlastic", 0.7f));
     all.back().material.specular = 1.0f;

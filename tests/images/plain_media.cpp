@@ -22,7 +22,16 @@ const Material *Media::around() const {
 
 double Media::index() const {
     const Material *const glass = around();
-    return glass != nullptr ? glass->refractiveIndex : 1.0;
+    if (glass == nullptr)
+        return 1.0;
+    const double index = glass->refractiveIndex;
+    if (!wavelength_ || glass->dispersion == 0.0f)
+        return index;
+    // Cauchy's equation, from the indices of three lines that make Abbe's number.
+    const auto squaredNumber = [](double wavelength) { return 1.0 / (wavelength * wavelength); };
+    const double abbe = 20.0 / glass->dispersion;
+    const double slope = (index - 1.0) / abbe / (squaredNumber(0.48613) - squaredNumber(0.65627));
+    return index + slope * (squaredNumber(*wavelength_) - squaredNumber(0.58756));
 }
 
 Vec Media::transmittance(double distance) const {

@@ -4,6 +4,7 @@
 
 #include "tests/images/plain_geometry.h"
 
+#include <optional>
 #include <vector>
 
 namespace hyalite::core::testing::plain {
@@ -17,7 +18,10 @@ class Media {
     /// The glass of highest priority, of equal ones the first in the scene; or none.
     [[nodiscard]] const Material *around() const;
 
-    /// Refractive index of what is around.
+    /// Light is of this wavelength from now on, in micrometres.
+    void setWavelength(double wavelength) { wavelength_ = wavelength; }
+
+    /// Refractive index of what is around: without a wavelength that of yellow light.
     [[nodiscard]] double index() const;
 
     /// What is left of light after a distance in what is around: Beer's law.
@@ -29,6 +33,7 @@ class Media {
 
   private:
     const Scene *scene_;
+    std::optional<double> wavelength_;
     std::vector<int> counts_;
 };
 

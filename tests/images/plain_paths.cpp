@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -84,12 +85,43 @@ bool isSmooth(const Substance &substance, bool isPassable, const std::optional<C
     return false;
 }
 
+// Wavelengths, in micrometres, that colours stand for: tents around their centres.
+constexpr double shortest = 0.395;
+constexpr double longest = 0.675;
+constexpr int waveCount = 14; // few enough to integrate the energy of rough glass for each
+
+double tent(double wavelength, double centre, double reach) {
+    return std::max(0.0, 1.0 - std::abs(wavelength - centre) / reach) / reach;
+}
+
+double wavelengthOf(int wave) { return shortest + (longest - shortest) * (wave + 0.5) / waveCount; }
+
+/// What even light of all waves has of each channel at one.
+Vec colourOf(int wave) {
+    const auto density = [](int of) {
+        const double wavelength = wavelengthOf(of);
+        const double red = 0.92 * tent(wavelength, 0.61, 0.065) + 0.08 * tent(wavelength, 0.425, 0.03);
+        return Vec(red, tent(wavelength, 0.543, 0.065), tent(wavelength, 0.455, 0.06));
+    };
+    Vec sum(0.0);
+    for (int other = 0; other < waveCount; ++other)
+        sum += density(other);
+    return density(wave) / sum * double{waveCount};
+}
+
 /// One path from the eye.
 class Path {
   public:
     Path(const World &world, Generator &generator, const Ray &ray)
         : world_(world), generator_(generator), origin_(ray.origin), direction_(ray.direction),
-          media_(world.scene) {}
+          media_(world.scene) {
+        const auto disperses = [](const Material &material) { return material.dispersion > 0.0f; };
+        if (std::ranges::none_of(world.scene.materials, disperses))
+            return;
+        const int wave = static_cast<int>(uniform(generator) * waveCount);
+        media_.setWavelength(wavelengthOf(wave));
+        throughput_ = colourOf(wave);
+    }
 
     [[nodiscard]] Vec follow() {
         for (int segment = 1; advance(segment); ++segment) {

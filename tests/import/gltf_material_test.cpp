@@ -21,7 +21,7 @@ class GltfMaterial : public GltfFolder {
     }
 
     /// A file of that material, with a texture 0.
-    [[nodiscard]] GltfMaker makerOf(const char *material) const {
+    [[nodiscard]] GltfMaker makerOf(const std::string &material) const {
         GltfMaker maker = oneTriangle();
         nlohmann::json &primitive = maker.json["meshes"][0]["primitives"][0];
         primitive["material"] = 0;
@@ -31,10 +31,10 @@ class GltfMaterial : public GltfFolder {
         maker.json["images"] = {{{"uri", "image.png"}}};
         return maker;
     }
-    [[nodiscard]] Material read(const char *material) const {
+    [[nodiscard]] Material read(const std::string &material) const {
         return load(makerOf(material)).scene.materials.at(1);
     }
-    [[nodiscard]] std::string refusalOfMaterial(const char *material) const {
+    [[nodiscard]] std::string refusalOfMaterial(const std::string &material) const {
         return refusal(makerOf(material));
     }
 
@@ -169,6 +169,17 @@ TEST_F(GltfMaterial, ReadsDiffuseTransmission) {
     EXPECT_FALSE(none.textures[layout::slotDiffuseTransmission] ||
                  none.textures[layout::slotDiffuseTransmissionColour]);
     EXPECT_EQ(scatteringOfGltf(none), layout::scattersAtGltf);
+}
+
+TEST_F(GltfMaterial, ReadsDispersionOfVolumes) {
+    const std::string diamond = R"("KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_dispersion": {"dispersion": 0.36})";
+    const Material material =
+        read(R"({"extensions": {"KHR_materials_volume": {"thicknessFactor": 1}, )" + diamond + "}}");
+    EXPECT_EQ(material.dispersion, 0.36f);
+    EXPECT_EQ(scatteringOfGltf(material),
+              layout::scattersAtGltf | layout::scattersAtRoughGlass | layout::scattersAtDispersion);
+    EXPECT_EQ(read(R"({"extensions": {)" + diamond + "}}").dispersion, 0.0f);
 }
 
 TEST_F(GltfMaterial, OfRefractiveIndexZeroReflectsEverythingHeadOn) {

@@ -98,6 +98,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(velvet.iridescenceIndex, 1.75f);
     EXPECT_EQ(velvet.iridescenceThickness, 250.0f);
     EXPECT_EQ(velvet.iridescenceThicknessMinimum, 700.0f);
+    EXPECT_EQ(velvet.dispersion, 0.5625f);
     EXPECT_EQ(velvet.diffuseTransmission, 0.1875f);
     EXPECT_EQ(velvet.diffuseTransmissionColour, glm::vec3(0.5f, 0.25f, 1.0f));
     EXPECT_TRUE(velvet.textures[layout::slotAnisotropy] && velvet.textures[layout::slotClearcoatNormal]);
@@ -109,6 +110,7 @@ TEST_F(SceneJson, EveryValueReachesTheScene) {
     EXPECT_EQ(ice.name, "ice");
     EXPECT_EQ(ice.kind, MaterialKind::Dielectric);
     EXPECT_EQ(ice.refractiveIndex, 1.31f);
+    EXPECT_EQ(ice.dispersion, 0.4375f);
     EXPECT_EQ(ice.segmentTint, glm::vec3(0.75f));
     EXPECT_EQ(ice.absorption, glm::vec3(0.5f, 0.25f, 0.0f));
     EXPECT_EQ(ice.priority, -2);

@@ -284,6 +284,11 @@ const std::vector<InputRow> inputRows{
     {"vec2 alphas", by([](S &s) {
          return vec2{alpha(s.draw), alpha(s.draw)};
      })},
+    {"float wavelength", by([](S &s) { return 0.35f + 0.4f * s.draw.unit(); })},
+    {"float centre", by([](S &s) { return 0.4f + 0.25f * s.draw.unit(); })},
+    {"float reach", by([](S &s) { return 0.02f + 0.06f * s.draw.unit(); })},
+    {"float bend", by([](S &s) { return 5.0f * s.draw.unit() - 1.0f; })},
+    {"float dispersion", by([](S &s) { return s.draw.chance(2) ? 0.0f : 0.2f * s.draw.unit(); })},
     {"float eta",
      by([](S &s) { return s.draw.chance(2) ? 1.0f / refractiveIndex(s.draw) : refractiveIndex(s.draw); })},
     {"float index, float refractiveIndex", by(refractiveIndex)},

@@ -97,6 +97,7 @@ void addMaterials(Scene &scene, Draw &draw) {
             material.iridescenceThicknessMinimum = 900.0f * draw.unit();
             material.diffuseTransmission = draw.chance(2) ? 0.0f : draw.unit();
             material.diffuseTransmissionColour = drawColour(draw);
+            material.dispersion = draw.chance(2) ? 0.0f : 5.0f * draw.unit();
         }
 }
 

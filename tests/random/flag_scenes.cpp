@@ -158,6 +158,8 @@ void addScattering(Rows &rows) {
             m.iridescence = 1.0f;
             m.iridescenceIndex = 2.0f;
         });
+    add("scattersAtDispersion", scattersAtDispersion, scattersAtRoughGlass, MaterialKind::Dielectric,
+        [](TestScene &, Material &m) { m.dispersion = 5.0f; });
     add("scattersAtDiffuseTransmission", scattersAtDiffuseTransmission, scattersAtGltf, MaterialKind::Gltf,
         [](TestScene &scene, Material &m) {
             m.diffuseTransmission = 0.8f;

@@ -159,6 +159,9 @@ class GlbDraws {
             maybe(it, "iridescenceTexture", 0.2, texture);
             maybe(it, "iridescenceThicknessTexture", 0.3, texture);
         });
+        extension("KHR_materials_dispersion", 0.2, [&](json &it) {
+            maybe(it, "dispersion", 0.9, [&] { return json(draws_.uniform(0.0, 2.0)); });
+        });
         extension("KHR_materials_diffuse_transmission", 0.2, [&](json &it) {
             maybe(it, "diffuseTransmissionFactor", 0.9, fraction);
             maybe(it, "diffuseTransmissionColorFactor", 0.5, colour);

@@ -229,7 +229,7 @@ TEST(GlassEnergy, OfTheNodesThatASceneNeedsIsThatOfAll) {
     nodes.addRoughness(0.3, 0.45);
     for (const double before : indices)
         for (const double beyond : indices)
-            nodes.addIndices(before, beyond);
+            nodes.addIndices({before, before}, {beyond, beyond});
     std::ranges::copy(makeGlassTexels(nodes), std::back_inserter(packed.lookups));
     EXPECT_LT(nodes.roughnesses.count(), 9u);
     EXPECT_LT(nodes.layers.count(), 15u);

@@ -25,13 +25,13 @@ void expectDistinct(const std::vector<uint> &pairs) {
 }
 
 TEST(Dimensions, OfAPathDoNotOverlap) {
-    std::vector<uint> pairs{pixelPair, lensPair, alphaTestPair};
+    std::vector<uint> pairs{pixelPair, wavelengthPair, lensPair, alphaTestPair};
     for (uint depth = 1; depth <= maxPathDepth; ++depth) {
         for (const uint pair : {pairChoice, pairLight, pairScatter})
             pairs.push_back(vertexPair(depth, pair));
         pairs.push_back(lobePair(depth));
     }
-    EXPECT_EQ(pairs.size(), 3 + (pairsPerVertex + 1) * maxPathDepth);
+    EXPECT_EQ(pairs.size(), 4 + (pairsPerVertex + 1) * maxPathDepth);
     expectDistinct(pairs);
 }
 
@@ -48,6 +48,7 @@ TEST(Dimensions, AreInTheirTable) {
     EXPECT_TRUE(hasRow(std::to_string(occlusionPair), "occlusionPair"));
     EXPECT_TRUE(hasRow(span(vertexPair(1, pairChoice), vertexPair(maxPathDepth, pairScatter)), "vertexPair"));
     EXPECT_TRUE(hasRow(span(lobePair(1), lobePair(maxPathDepth)), "lobePair"));
+    EXPECT_TRUE(hasRow(std::to_string(wavelengthPair), "wavelengthPair"));
     EXPECT_TRUE(hasRow(std::to_string(lensPair), "lensPair"));
     EXPECT_TRUE(hasRow(std::to_string(alphaTestPair), "alphaTestPair"));
 }

@@ -39,6 +39,7 @@ class MaterialReader {
         readSurface();
         readSpecular();
         readTransmission();
+        readDispersion();
         readClearcoat();
         readSheen();
         readAnisotropy();
@@ -212,6 +213,13 @@ class MaterialReader {
         const glm::vec3 tint = colour(*volume, "attenuationColor", limits::fraction, 1.0);
         for (glm::length_t channel = 0; channel < 3; ++channel)
             material_.absorption[channel] = absorptionOf(static_cast<double>(tint[channel]), length);
+    }
+
+    /// Of a volume alone: what is thin bends no light.
+    void readDispersion() {
+        const auto dispersion = extensionOf(object_, "KHR_materials_dispersion");
+        if (dispersion && isGlass(material_))
+            material_.dispersion = number(*dispersion, "dispersion", limits::dispersion, 0.0);
     }
 
     /// Beer's law: light is dimmed by `tint` over the length. A tint of 0 counts as 1e-6.
