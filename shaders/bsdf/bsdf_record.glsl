@@ -38,6 +38,8 @@ struct Bsdf {
     Iridescence iridescence;
 };
 
+bool hasFilm(Bsdf bsdf) { return (scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0; }
+
 struct BsdfEval {
     vec3 value; // the BSDF times |cos| of wi to the normal
     float pdf;  // of wi, per solid angle; 0: never sampled

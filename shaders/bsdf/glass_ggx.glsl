@@ -13,7 +13,7 @@ Bsdf makeGlass(Bsdf bsdf) {
 // channel, and only what that leaves passes.
 vec3 glassReflectance(Bsdf bsdf, DielectricFresnel glass, vec3 facet) {
     vec3 bare = vec3(glass.reflectance);
-    if ((scattering & scattersAtIridescent) == 0u || !(bsdf.iridescence.share > 0.0) || glass.reflectance >= 1.0)
+    if (!hasFilm(bsdf) || glass.reflectance >= 1.0)
         return bare;
     // Light goes both ways through a film alike: what counts is the angle outside.
     float cosine = bsdf.iridescence.isBelow ? -dotProduct(glass.refracted, facet) : dotProduct(bsdf.wo, facet);

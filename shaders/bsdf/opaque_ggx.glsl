@@ -19,7 +19,7 @@ vec3 fresnelReflectance(Bsdf bsdf, float cosine) {
     if ((scattering & scattersAtRoughConductors) != 0u && bsdf.isConductor)
         return conductorReflectance(lesser(cosine, 1.0), bsdf.index, bsdf.extinction);
     vec3 bare = schlickReflectance(cosine, bsdf.reflectance, bsdf.grazing);
-    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0)
+    if (hasFilm(bsdf))
         return mixtureOf(bare, iridescentReflectance(bsdf.iridescence, cosine), bsdf.iridescence.share);
     return bare;
 }
@@ -48,7 +48,7 @@ Bsdf addOpaqueLobes(Bsdf bsdf, float metal, float plastic, vec3 colour, vec3 col
     vec3 multiScatterColour = multiScatterReflectance(metalAverage, average.white) * metal;
     bsdf.multiScatter = multiScatterColour * lossShare(energy.white, average.white);
     float plasticEnergy = energyAt(energy, bsdf.plasticReflectance, bsdf.plasticGrazing);
-    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0 && bsdf.iridescence.metal < 1.0) {
+    if (hasFilm(bsdf) && bsdf.iridescence.metal < 1.0) {
         float covered = iridescentEnergy(bsdf.iridescence, energy, bsdf.wo.z, bsdf.roughness, bsdf.plasticReflectance);
         plasticEnergy = mixture(plasticEnergy, covered, bsdf.iridescence.share);
     }
@@ -113,7 +113,7 @@ BsdfEval evalThin(Bsdf bsdf, vec3 wi) {
     float passed = pdfReflection(facetD(bsdf, facet), bsdf.wo, bsdf.stretchWo);
     float lit = smithG2OverG1(bsdf.wo.z, bsdf.stretchWo, mirrored.z, facetStretch(bsdf, mirrored));
     float reflected = schlickReflectance(cosine, vec3(bsdf.plasticReflectance), bsdf.plasticGrazing).x;
-    if ((scattering & scattersAtIridescent) != 0u && bsdf.iridescence.share > 0.0)
+    if (hasFilm(bsdf))
         reflected = mixture(reflected, iridescentLoss(bsdf.iridescence, cosine), bsdf.iridescence.share);
     float kept = 1.0 - reflected;
     return BsdfEval(bsdf.thinTint * (passed * lit * kept), bsdf.thinProbability * passed);

@@ -1,7 +1,7 @@
 // The inner nodes of a wide tree: the boxes of up to eight children, in steps of a grid over them. Ylitie, Karras and
 // Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017: children are in slots by the
 // octant in which they lie, so that rays meet nearer ones first where they go through the slots in the order
-// slot ^ octant of their direction. What waits in the stack is a group: a node, and which of its children.
+// child ^ octant of their direction. What waits in the stack is a group: a node, and which of its children.
 //
 // Boxes enclose the children's own by the sums that are computed here (host/packing/wide_tree.h), so that no hit is lost.
 
@@ -27,9 +27,9 @@ uint nextSubtree(uint i) {
     return entry >= leaveInstance ? entry : takeChild(i, entry >> 8u, entry & 0xFFu);
 }
 
-// Coordinate of a plane: that of the byte `slot` of the two words, in steps of the grid from its origin.
-float widePlane(float origin, float cell, uint first, uint last, const uint slot) {
-    return origin + cell * float((slot < 4u ? first : last) >> 8u * (slot & 3u) & 0xFFu);
+// Coordinate of a plane: that of the byte `child` of the two words, in steps of the grid from its origin.
+float widePlane(float origin, float cell, uint first, uint last, const uint child) {
+    return origin + cell * float((child < 4u ? first : last) >> 8u * (child & 3u) & 0xFFu);
 }
 
 uint visitNode(uint i, BoxRay ray, InstanceRecord instance) {
@@ -39,16 +39,16 @@ uint visitNode(uint i, BoxRay ray, InstanceRecord instance) {
     vec3 cell = uintBitsToFloat(uvec3(node.grid << 23u, node.grid >> 8u << 23u, node.grid >> 16u << 23u) & 0x7F800000u);
     uint octant = rayOctant(i);
     uint group = 0u;
-    [[unroll]] for (uint slot = 0u; slot < 8u; ++slot) {
-        vec3 lower = vec3(widePlane(node.origin.x, cell.x, node.lowerX0, node.lowerX1, slot),
-                          widePlane(node.origin.y, cell.y, node.lowerY0, node.lowerY1, slot),
-                          widePlane(node.origin.z, cell.z, node.lowerZ0, node.lowerZ1, slot));
-        vec3 upper = vec3(widePlane(node.origin.x, cell.x, node.upperX0, node.upperX1, slot),
-                          widePlane(node.origin.y, cell.y, node.upperY0, node.upperY1, slot),
-                          widePlane(node.origin.z, cell.z, node.upperZ0, node.upperZ1, slot));
+    [[unroll]] for (uint child = 0u; child < 8u; ++child) {
+        vec3 lower = vec3(widePlane(node.origin.x, cell.x, node.lowerX0, node.lowerX1, child),
+                          widePlane(node.origin.y, cell.y, node.lowerY0, node.lowerY1, child),
+                          widePlane(node.origin.z, cell.z, node.lowerZ0, node.lowerZ1, child));
+        vec3 upper = vec3(widePlane(node.origin.x, cell.x, node.upperX0, node.upperX1, child),
+                          widePlane(node.origin.y, cell.y, node.upperY0, node.upperY1, child),
+                          widePlane(node.origin.z, cell.z, node.upperZ0, node.upperZ1, child));
         vec2 interval = nodeInterval(i, ray, instance, lower, upper);
-        bool isHit = (node.grid >> (24u + slot) & 1u) != 0u && interval.x <= lesser(interval.y, traversal[i].hit.distance);
-        group |= isHit ? 1u << (slot ^ octant) : 0u;
+        bool isHit = (node.grid >> (24u + child) & 1u) != 0u && interval.x <= lesser(interval.y, traversal[i].hit.distance);
+        group |= isHit ? 1u << (child ^ octant) : 0u;
     }
     uint next;
     if (group != 0u)
