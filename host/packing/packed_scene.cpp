@@ -210,9 +210,14 @@ GlassNodes glassNodesOf(const Scene &scene) {
         const bool isGlossiness = isTextured && material.isSpecularGlossy;
         nodes.addRoughness(isTextured ? 0.0 : roughness, isGlossiness ? 1.0 : roughness);
     }
-    for (const IndexSpan &before : indices)
-        for (const IndexSpan &beyond : indices)
-            nodes.addIndices(before, beyond);
+    // Facets of mixtures bend light a little where the indices of two media are equal.
+    constexpr IndexSpan nearlyEqual{1.0, leaves::nearlyEqualIndex<double>};
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            nodes.addIndices(indices[i], indices[k]);
+            if (i != k && indices[i].least <= indices[k].most && indices[k].least <= indices[i].most)
+                nodes.addIndices(nearlyEqual, nearlyEqual);
+        }
     return nodes;
 }
 

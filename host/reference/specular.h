@@ -184,12 +184,12 @@ template <class Real, class Counter> class SpecularPath {
     }
 
     /// Whether the material is specular here: a mirror or clear glass. Rough glass with the same index on both sides is
-    /// clear.
+    /// clear, unless it is a mixture, which has other parts and a colour.
     [[nodiscard]] bool isSpecularHere(const MaterialRecord<Real> &material, std::uint32_t materialIndex,
                                       bool isEntering) const {
         if (holdsMedium(scene_, material) && material.alpha > 0) {
             const Crossing crossing = crossingOf(materialIndex, isEntering);
-            return crossing.isNullInterface || (isGlass(scene_, material) && crossing.eta == Real(1));
+            return crossing.isNullInterface || (!isMixture(scene_, material) && crossing.eta == Real(1));
         }
         return isSpecular(material);
     }

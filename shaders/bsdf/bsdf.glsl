@@ -139,6 +139,10 @@ vec3 glassTint(MaterialRecord material) {
 
 // ---- BSDFs
 
+// Facets of a mixture's glass whose index is that of its surroundings have it instead: they bend and reflect nothing that
+// can be seen, and light takes on their colour.
+const float nearlyEqualIndex = 1.001;
+
 // The BSDF where a ray in `direction` hits a surface. `geometricNormal`, a unit vector, is on the side of the viewer;
 // the unit normal `normal` and that of `axes` are on the same side of the surface. `eta` is as in Bsdf; `choice`, in
 // [0, 1), is random.
@@ -163,7 +167,7 @@ Bsdf makeBsdf(MaterialRecord material, vec3 direction, vec3 normal, vec3 geometr
     bsdf.extinction = material.conductorExtinction;
     bsdf.reflectance = material.albedo;
     bsdf.grazing = 1.0;
-    bsdf.eta = eta;
+    bsdf.eta = eta != 1.0 ? eta : isBehind ? nearlyEqualIndex : divide(1.0, nearlyEqualIndex);
     bsdf.tint = vec3(1.0);
     bsdf.multiScatter = vec3(0.0);
     bsdf.diffuseBase = vec3(0.0);

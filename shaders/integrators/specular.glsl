@@ -116,12 +116,13 @@ bool scatterSmoothDielectric(const Answer answer, const Surface surface,
     return true;
 }
 
-// Whether the surface is a mirror or clear glass. Rough glass with the same index on both sides is clear.
+// Whether the surface is a mirror or clear glass. Rough glass with the same index on both sides is clear, unless it is a
+// mixture, which has other parts and a colour.
 bool isSpecularHere(uint mediaInside, const MaterialRecord material, uint materialIndex, bool isEntering) {
     if ((scattering & (scattersAtRoughGlass | scattersAtDiffuseTransmission)) != 0u && holdsMedium(material) &&
         material.alpha > 0.0) {
         Crossing crossing = crossingOf(mediaInside, materialIndex, isEntering);
-        return crossing.isNullInterface || isGlass(material) && crossing.eta == 1.0;
+        return crossing.isNullInterface || !isMixture(material) && crossing.eta == 1.0;
     }
     return isSpecular(material);
 }

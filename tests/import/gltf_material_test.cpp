@@ -211,14 +211,6 @@ TEST_F(GltfMaterial, IsThinUnlessItHasAVolumeWhichAbsorbsByBeersLaw) {
         glm::vec3(0.0f));
 }
 
-TEST_F(GltfMaterial, OfGlassWithTheIndexOfAirKeepsItsSurfaceAndSoItsColour) {
-    const Material glass = read(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
-        "KHR_materials_volume": {"thicknessFactor": 1}, "KHR_materials_ior": {"ior": 1}}})");
-    EXPECT_GT(glass.refractiveIndex, 1.0f);
-    EXPECT_LT(glass.refractiveIndex, 1.0015f);
-    EXPECT_EQ(read(R"({"extensions": {"KHR_materials_ior": {"ior": 1}}})").refractiveIndex, 1.0f);
-}
-
 const char *const absorbingGlass = R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
     "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0]}}})";
 

@@ -122,6 +122,31 @@ TEST(PathFurnace, AWhiteBallInGlassIsInvisibleToo) {
     expectRadiance(scene, 1.0);
 }
 
+// A ball that bends nothing, in a white world and in a liquid of its index.
+TEST(Path, TakesOnTheColourOfAMixtureWhoseIndexIsThatAroundIt) {
+    for (const auto &[kind, tint] : {std::pair{MaterialKind::Gltf, 0.5}, {MaterialKind::Principled, 0.25}})
+        for (const float index : {1.0f, 1.0002f, 1.4f}) {
+            TestScene scene = sceneFrom({0.1, 0.2, 5}, 1024);
+            scene.background = glm::vec3(1.0f);
+            Material material = glass(index, 0.0f, 1);
+            material.kind = kind;
+            material.albedo = glm::vec3(static_cast<float>(tint));
+            material.roughness = 0.3f;
+            material.transmission = 1.0f;
+            scene.spheres.push_back({{0, 0, 0}, 1.0, addMaterial(scene, material), false});
+            const double through = kind == MaterialKind::Gltf ? tint * tint : tint; // a root at each crossing
+            double expected = through;
+            if (index > 1.1f) {
+                scene.spheres.push_back({{0, 0, 0}, 2.0, addMaterial(scene, glass(index)), false});
+                const double reflected = std::pow((index - 1.0) / (index + 1.0), 2.0); // head on
+                expected =
+                    reflected + (1.0 - reflected) * (1.0 - reflected) * through / (1.0 - reflected * through);
+            }
+            EXPECT_NEAR(estimate(scene).mean, expected, 0.01 * expected)
+                << static_cast<int>(kind) << ", " << index;
+        }
+}
+
 TEST(Path, BeginsInTheGlassAroundEachOrigin) {
     // A block of what absorbs and does not refract, down to x = 0: rays along -z that begin in it are in it for 10
     // units.

@@ -353,13 +353,6 @@ void limitVolumes(const Document &document, Materials &materials) {
         });
 }
 
-/// Light passes between equal indices as if no surface were there, and would not take on the base colour.
-void raiseIndex(Material &material) {
-    constexpr float nearAir = 1.001f; // bends and reflects nothing that can be seen
-    if (isGlass(material))
-        material.refractiveIndex = std::max(material.refractiveIndex, nearAir);
-}
-
 } // namespace
 
 Materials readMaterials(const Document &document, TextureReader &textures) {
@@ -367,7 +360,6 @@ Materials readMaterials(const Document &document, TextureReader &textures) {
     for (const JsonNode &node : document.top().elements("materials", limits::materialCount - 2))
         materials.list.push_back(MaterialReader(document, node, textures).read());
     materials.list.push_back(defaultMaterial());
-    std::ranges::for_each(materials.list, raiseIndex);
     materials.shownAs.resize(materials.list.size());
     std::iota(materials.shownAs.begin(), materials.shownAs.end(), 0u);
     limitVolumes(document, materials);
