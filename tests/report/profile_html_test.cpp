@@ -38,7 +38,8 @@ Profile fullProfile() {
     ledger.charge(PathStage::Primary, 0, 0, {2, 10, 1});
     ledger.charge(PathStage::Further, 1, 1, {5, 20, 3});
     ledger.charge(PathStage::Shadow, 2, 1, {7, 50, 5});
-    ledger.shading.lobes = {30, 10, 0, 0, 0, 0, 0};
+    ledger.shading.lobes[static_cast<std::size_t>(Lobe::Diffuse)] = 30;
+    ledger.shading.lobes[static_cast<std::size_t>(Lobe::Glossy)] = 10;
     ledger.shading.filmSamples = 16;
     profile.charges = chargesOf(ledger, 3, {"teapot", "floor"}, {"clay"});
     profile.workHistogram = {{1.0, 2.0, 75}, {2.0, 4.0, 25}};

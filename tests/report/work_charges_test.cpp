@@ -13,7 +13,8 @@ WorkLedger handMadeLedger() {
     ledger.charge(PathStage::Primary, 1, 1, {5, 20, 0});
     ledger.charge(PathStage::Further, 2, 1, {1, 30, 30});
     ledger.charge(PathStage::Shadow, 4, 2, {7, 5, 5});
-    ledger.shading.lobes = {30, 10, 0, 0, 0, 0, 0};
+    ledger.shading.lobes[static_cast<std::size_t>(Lobe::Diffuse)] = 30;
+    ledger.shading.lobes[static_cast<std::size_t>(Lobe::Glossy)] = 10;
     ledger.shading.lightSamples = 41;
     ledger.shading.textureReads = 9000;
     ledger.shading.filmSamples = 8;

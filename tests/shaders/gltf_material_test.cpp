@@ -230,7 +230,7 @@ TEST(DiffuseTransmission, IsReciprocal) {
 }
 
 TEST(DiffuseTransmission, IsTheDiffuseShareOfWhatPasses) {
-    layout::MaterialRecord paper = leaf(0.16, 0.5f);
+    layout::MaterialRecord paper = leaf(0.16, 0.25f);
     paper.transmission = 0.5f;
     const Bsdf<double> bsdf = seenFrom(paper, viewAt(0.8));
     for (const Direction &light : {Direction(-0.6, 0.0, -0.8), Direction(0.6, 0.0, -0.8)}) {
