@@ -238,7 +238,10 @@ archive)
     (cd "$build" && cpack -G TGZ >/dev/null)
     packed=$(ls "$build"/hyalite-*.tar.gz)
     archive=$root/build/$(basename "$packed" .gz).xz
-    gzip --decompress --stdout "$packed" | xz -9 --extreme >"$archive" # a sixth less than cpack's
+    # The first filter makes the targets of jumps absolute, which saves 0.3 MiB; and all is a sixth less than cpack's.
+    jumps=x86
+    [ "$(uname -m)" != aarch64 ] || jumps=arm64
+    gzip --decompress --stdout "$packed" | xz --"$jumps" --lzma2=preset=9e >"$archive"
     rm "$packed"
     "$root/tests/archive/check.sh" "$archive"
     ;;
