@@ -102,8 +102,9 @@ template <class Real, class Counter> class SpecularPath {
     [[nodiscard]] Real mediumIndex(std::uint32_t medium) const {
         if (medium == layout::noMaterial)
             return Real(1);
-        const MaterialRecord<Real> material = scene_.fetchMaterial(medium);
-        return dispersesLight() ? indexFor(material, waveOfSample().bend) : material.refractiveIndex;
+        if (dispersesLight())
+            return indexFor<Real>(scene_.fetchMaterial(medium), waveOfSample().bend);
+        return static_cast<Real>(scene_.packed.materials[medium].refractiveIndex);
     }
 
     [[nodiscard]] bool isDispersive(std::uint32_t medium) const {

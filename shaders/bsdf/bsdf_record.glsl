@@ -31,7 +31,7 @@ struct Bsdf {
     float plasticGrazing;     // at grazing angles
     vec3 thinTint;            // of thin glass: of light that passes, with what facets lose of it
     float thinProbability;    // of sampling a facet that lets light pass
-    vec3 diffuseTransmission;       // as diffuseBase, of what leaves on the other side
+    vec3 diffuseTransmission; // as diffuseBase, of what leaves on the other side
     float diffuseTransmissionProbability; // of sampling it
     float weight; // share of the chosen component divided by the probability of choosing it; of glass by its energy too
     float specularProbability; // of sampling a facet instead of the diffuse part

@@ -15,8 +15,8 @@ const float blueReach = 0.060;
 const float violetCentre = 0.425;
 const float violetReach = 0.030;
 const float violetShare = 0.08; // of what red stands for
-const float shortestWavelength = 0.395;
-const float longestWavelength = 0.675;
+const float shortestWavelength = blueCentre - blueReach;
+const float longestWavelength = redCentre + redReach;
 
 // The pdf of a wavelength in a band.
 float bandPdf(float wavelength, float centre, float reach) {

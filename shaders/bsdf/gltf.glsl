@@ -1,6 +1,6 @@
 // The material of glTF 2.0: a clear coat over sheen over an iridescent film on a mixture of metal, plastic whose base
-// may let light through, glass and thin glass, as the specification and its extensions KHR_materials_... define it, except for what facets lose at once:
-// see README.md.
+// may let light through, glass and thin glass, as the specification and its extensions KHR_materials_... define it,
+// except for what facets lose at once: see README.md.
 //
 // As in principled.glsl one component is chosen at each hit.
 

@@ -9,7 +9,8 @@
 // 2019); and the coat leaves 1 - coat E(view).
 //
 // A material of glTF is the specification's, with the first three of these choices, and with facets of thin glass as of
-// thick. A base that lets light through has the same plastic on both sides. Of a film, the colour below gets what the film does not reflect of the view, and spreads it as without one.
+// thick. A base that lets light through has the same plastic on both sides. Of a film, the colour below gets what the
+// film does not reflect of the view, and spreads it as without one.
 #pragma once
 
 #include "tests/images/plain_microfacets.h"

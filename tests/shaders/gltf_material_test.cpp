@@ -1,5 +1,6 @@
-// Materials of glTF: sheen, thin glass, anisotropy, coats and diffuse transmission keep energy, and draw directions with the density that
-// they say they have. What they look like is judged by the plain path tracer (tests/images/plain_materials_test.cpp).
+// Materials of glTF: sheen, thin glass, anisotropy, coats and diffuse transmission keep energy, and draw directions with
+// the density that they say they have. What they look like is judged by the plain path tracer
+// (tests/images/plain_materials_test.cpp).
 #include "tests/fixtures/bsdf_fixture.h"
 
 #include <gtest/gtest.h>
