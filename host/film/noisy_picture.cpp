@@ -63,7 +63,8 @@ layout::NoisyPixel scaled(const layout::NoisyPixel &pixel, float scale) {
 
 Image denoisedByTiles(const NoisyPicture &picture, int side,
                       const std::function<std::vector<glm::vec3>(const NoisyPicture &tile)> &denoiseTile) {
-    constexpr int margin = static_cast<int>(layout::denoiserMargin);
+    constexpr int margin = layout::denoiserMargin;
+    side = std::max(side / layout::tileAlignment, 1) * layout::tileAlignment;
     const float scale = scaleOf(picture);
     Image image(picture.width, picture.height);
     for (int top = 0; top < picture.height; top += side)

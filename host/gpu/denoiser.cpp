@@ -9,7 +9,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <functional>
+#include <map>
 #include <string>
 
 namespace hyalite::core::gpu {
@@ -20,16 +21,41 @@ using layout::denoiserBindingCount;
 
 constexpr std::uint32_t passGroupSize = 64;
 constexpr std::size_t bytesOfTexel = 16;
-constexpr int tileMargin = static_cast<int>(layout::denoiserMargin);
+constexpr int tileMargin = layout::denoiserMargin;
 
-/// Texels of a pixel in the buffer at each binding.
-constexpr std::array<std::size_t, denoiserBindingCount> rowsAt{
-    layout::noisyRows, layout::splitRows, 1, layout::guideRows, layout::estimateCount, 1, 1};
 constexpr std::array<const char *, denoiserBindingCount> bufferNames{
-    "the noisy tile",       "the halves of the tile", "the variances of the tile", "the guides of the tile",
-    "the tile's estimates", "the tile's choices",     "the denoised tile"};
-constexpr std::array<const char *, 6> passNames{"denoiserSplit",      "denoiserVariance", "denoiserGuides",
-                                                "denoiserRegression", "denoiserChoice",   "denoiserBlend"};
+    "the noisy tile",    "the halves of the tile", "the variances of the tile", "the levels of the tile",
+    "the tile's models", "the tile's estimates",   "the tile's choices",        "the denoised tile"};
+
+std::size_t productOf(int width, int height) {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+/// Pixels of a fit's level.
+std::size_t levelPixels(int width, int height, int fit) {
+    return productOf(layout::levelSize(width, fit), layout::levelSize(height, fit));
+}
+
+std::size_t anchorsOf(int width, int height, int fit) {
+    return productOf(layout::anchorCount(layout::levelSize(width, fit)),
+                     layout::anchorCount(layout::levelSize(height, fit)));
+}
+
+/// In the buffer at each binding, of a tile of this size.
+std::array<std::size_t, denoiserBindingCount> texelsOf(int width, int height) {
+    const std::size_t pixels = productOf(width, height);
+    std::size_t anchors = 0;
+    for (int fit = 0; fit < layout::fitCount; ++fit)
+        anchors += anchorsOf(width, height, fit);
+    return {pixels * layout::noisyRows,
+            pixels * layout::splitRows,
+            pixels,
+            (pixels + levelPixels(width, height, layout::fitCoarse)) * layout::levelRows,
+            anchors * layout::modelRows,
+            pixels * layout::estimateCount,
+            pixels,
+            pixels};
+}
 
 /// Side of a tile's own pixels, whose texels the device can address.
 int tileSideFor(const DeviceInfo &device) {
@@ -39,17 +65,23 @@ int tileSideFor(const DeviceInfo &device) {
                                 "needs {}",
                                 device.name, device.maxStorageImagesPerStage, denoiserBindingCount),
                     Remedy::ReferenceInstead);
-    const auto most = static_cast<int>(std::sqrt(static_cast<double>(device.maxTexelBufferElements) /
-                                                 static_cast<double>(std::ranges::max(rowsAt))));
-    return std::min(denoiserTileSide, most - 2 * tileMargin); // Vulkan guarantees 114 - 2 margins
+    int side = denoiserTileSide; // Vulkan guarantees 24
+    const auto isTooLarge = [&](int own) {
+        const int whole = own + 2 * tileMargin;
+        return std::ranges::max(texelsOf(whole, whole)) > device.maxTexelBufferElements;
+    };
+    while (side > layout::tileAlignment && isTooLarge(side))
+        side -= layout::tileAlignment;
+    return side;
 }
 
 class TileDenoiser {
   public:
-    TileDenoiser(Device &device, PipelineCache &pipelines, bool isDivisionExact, std::size_t pixelCount) {
+    /// Of tiles up to this size.
+    TileDenoiser(Device &device, PipelineCache &pipelines, bool isDivisionExact, int width, int height) {
+        const std::array<std::size_t, denoiserBindingCount> texels = texelsOf(width, height);
         for (std::size_t i = 0; i < denoiserBindingCount; ++i)
-            buffers_.emplace_back(device, bufferNames[i], BufferUse::Texels,
-                                  pixelCount * rowsAt[i] * bytesOfTexel);
+            buffers_.emplace_back(device, bufferNames[i], BufferUse::Texels, texels[i] * bytesOfTexel);
         std::vector<const Buffer *> bound;
         for (const Buffer &buffer : buffers_)
             bound.push_back(&buffer);
@@ -57,9 +89,12 @@ class TileDenoiser {
         SpecializationConstants constants{};
         constants[layout::constantWorkgroupSize] = passGroupSize;
         constants[layout::constantExactDivision] = isDivisionExact;
-        for (const char *pass : passNames)
-            kernels_.emplace_back(device, pipelines.get(device, pass, embeddedKernel(pass), constants, uses),
-                                  bound);
+        for (const char *pass :
+             {"Split", "Variance", "Guides", "Coarse", "Fit", "Estimate", "Choice", "Blend"}) {
+            const std::string name = std::string("denoiser") + pass;
+            kernels_.try_emplace(pass, device,
+                                 pipelines.get(device, name, embeddedKernel(name), constants, uses), bound);
+        }
     }
 
     [[nodiscard]] std::vector<glm::vec3> denoised(const NoisyPicture &tile) {
@@ -67,9 +102,22 @@ class TileDenoiser {
         layout::DispatchConstants dispatch{};
         dispatch.tileWidth = static_cast<std::uint32_t>(tile.width);
         dispatch.tileHeight = static_cast<std::uint32_t>(tile.height);
-        const auto pixelCount = static_cast<std::uint32_t>(tile.pixels.size());
-        for (Kernel &kernel : kernels_)
-            kernel.run(dispatch, (pixelCount + passGroupSize - 1) / passGroupSize);
+        const auto run = [&](const std::string &pass, std::size_t invocations) {
+            kernels_.at(pass).run(dispatch, (static_cast<std::uint32_t>(invocations) + passGroupSize - 1) /
+                                                passGroupSize);
+        };
+        const std::size_t pixelCount = tile.pixels.size();
+        run("Split", pixelCount);
+        run("Variance", pixelCount);
+        run("Guides", pixelCount);
+        run("Coarse", levelPixels(tile.width, tile.height, layout::fitCoarse));
+        for (int fit = 0; fit < layout::fitCount; ++fit) {
+            dispatch.fit = static_cast<std::uint32_t>(fit);
+            run("Fit", anchorsOf(tile.width, tile.height, fit));
+        }
+        run("Estimate", pixelCount);
+        run("Choice", pixelCount);
+        run("Blend", pixelCount);
         std::vector<glm::vec4> texels(pixelCount);
         buffers_[layout::bindingDenoised].download(std::as_writable_bytes(std::span(texels)));
         return {texels.begin(), texels.end()};
@@ -77,17 +125,15 @@ class TileDenoiser {
 
   private:
     std::vector<Buffer> buffers_;
-    std::vector<Kernel> kernels_;
+    std::map<std::string, Kernel, std::less<>> kernels_; ///< by pass
 };
 
 } // namespace
 
 Image denoise(Device &device, PipelineCache &pipelines, bool isDivisionExact, const NoisyPicture &picture) {
     const int side = tileSideFor(device.info());
-    const auto most = [side](int size) {
-        return static_cast<std::size_t>(std::min(size, side + 2 * tileMargin));
-    };
-    TileDenoiser tiles(device, pipelines, isDivisionExact, most(picture.width) * most(picture.height));
+    const auto most = [side](int size) { return std::min(size, side + 2 * tileMargin); };
+    TileDenoiser tiles(device, pipelines, isDivisionExact, most(picture.width), most(picture.height));
     return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
 }
 

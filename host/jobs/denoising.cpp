@@ -145,8 +145,8 @@ std::optional<Image> denoised(Backend &backend, const Film &film, const std::vec
 }
 
 std::uint64_t denoiserBytes(const Crop &crop) {
-    constexpr std::uint64_t tilePixels = 512 * 512; // of a tile of the denoiser ...
-    constexpr std::uint64_t bytesInTile = 350;      // ... and for each of them
+    constexpr std::uint64_t tilePixels = 570 * 570; // of a tile of the denoiser ...
+    constexpr std::uint64_t bytesInTile = 540;      // ... and for each of them
     const std::uint64_t pixels = pixelCountOf(crop);
     return pixels * (sizeof(layout::NoisyPixel) + sizeof(glm::vec3)) +
            std::min(pixels, tilePixels) * bytesInTile;

@@ -2,6 +2,7 @@
 
 #include "host/leaves/leaves.h"
 
+#include <glm/vec2.hpp>
 #include <omp.h>
 
 #include <algorithm>
@@ -18,7 +19,9 @@ using layout::NoisyPixel;
 constexpr std::size_t features = layout::featureCount;
 constexpr std::size_t estimateKinds = layout::estimateCount;
 
-/// The sums of a regression over the neighbours of a pixel.
+using Model = std::array<vec3, features>; ///< a coefficient for each feature
+
+/// The sums of a regression over the neighbours of an anchor.
 struct Moments {
     std::array<float, layout::productCount> products{};
     std::array<vec3, features> sums{};
@@ -33,23 +36,88 @@ struct Moments {
         }
     }
 
-    /// The value where all differences of features are 0: Gaussian elimination from the last feature to the constant.
-    [[nodiscard]] vec3 solved() {
+    /// The coefficients: Gaussian elimination from the last feature to the constant, and back.
+    [[nodiscard]] Model solved() {
         const auto product = [this](std::size_t m, std::size_t l) -> float & {
             return products[m * (m + 1) / 2 + l];
         };
         const float ridge = products[0] * 1e-5f;
+        std::array<float, features> inverses{};
         for (std::size_t m = features - 1; m > 0; --m) {
-            const float inverse = leaves::divide(1.0f, leaves::greater(product(m, m) + ridge, 1e-7f));
+            inverses[m] = leaves::divide(1.0f, leaves::greater(product(m, m) + ridge, 1e-7f));
             for (std::size_t l = 0; l < m; ++l) {
-                const float factor = product(m, l) * inverse;
+                const float factor = product(m, l) * inverses[m];
                 for (std::size_t k = 0; k <= l; ++k)
                     product(l, k) -= factor * product(m, k);
                 sums[l] -= factor * sums[m];
             }
         }
-        return sums[0] * leaves::divide(1.0f, leaves::greater(products[0], 1e-7f));
+        inverses[0] = leaves::divide(1.0f, leaves::greater(products[0], 1e-7f));
+        for (std::size_t m = 0; m < features; ++m) {
+            for (std::size_t l = 0; l < m; ++l)
+                sums[m] -= product(m, l) * sums[l];
+            sums[m] *= inverses[m];
+        }
+        return sums;
     }
+};
+
+/// A pixel of a level, or of the mean of a block.
+struct LevelPixel {
+    float firstShare;
+    vec3 first;
+    vec3 second;
+    vec3 variance;
+    vec3 firstGuide;
+    vec3 secondGuide;
+    vec3 guideVariance;
+    vec3 albedo;
+    vec3 normal;
+    float depth;
+
+    /// By the first half of the samples, and by the second. The variance of a half's mean is that of all samples' over
+    /// its share: `factors`, of both halves.
+    [[nodiscard]] glm::vec2 distancesTo(const LevelPixel &other, const glm::vec2 &factors) const {
+        const auto distance = [&](vec3 LevelPixel::*guide, vec3 LevelPixel::*half, float factor) {
+            return leaves::jointDistance(
+                leaves::colourDistance(this->*guide, other.*guide, guideVariance * factor,
+                                       other.guideVariance * factor),
+                leaves::colourDistance(this->*half, other.*half, variance * factor, other.variance * factor));
+        };
+        return {distance(&LevelPixel::firstGuide, &LevelPixel::first, factors.x),
+                distance(&LevelPixel::secondGuide, &LevelPixel::second, factors.y)};
+    }
+
+    [[nodiscard]] glm::vec2 factors() const {
+        return {leaves::divide(1.0f, firstShare), leaves::divide(1.0f, 1.0f - firstShare)};
+    }
+
+    /// By an anchor: a constant, and differences.
+    [[nodiscard]] std::array<float, features> featuresBy(const LevelPixel &anchor) const {
+        return {1.0f,
+                leaves::featureDifference(albedo.x, anchor.albedo.x),
+                leaves::featureDifference(albedo.y, anchor.albedo.y),
+                leaves::featureDifference(albedo.z, anchor.albedo.z),
+                leaves::featureDifference(normal.x, anchor.normal.x),
+                leaves::featureDifference(normal.y, anchor.normal.y),
+                leaves::featureDifference(normal.z, anchor.normal.z),
+                leaves::depthDifference(depth, anchor.depth)};
+    }
+};
+
+/// A model's colour for the features. Radiance is not negative.
+vec3 colourBy(const Model &model, const std::array<float, features> &values) {
+    vec3 colour = model[0];
+    for (std::size_t m = 1; m < features; ++m)
+        colour += values[m] * model[m];
+    return leaves::greater(colour, vec3(0.0f));
+}
+
+/// The models of a fit at the anchors of its level.
+struct Fit {
+    int width;
+    int height;
+    std::array<std::vector<Model>, 2> models; ///< of the halves
 };
 
 /// The passes over a tile, one after the other. What they hand on is kept for all pixels.
@@ -64,11 +132,14 @@ class TileDenoiser {
         forEach([this](int x, int y) { split(x, y); });
         variance_.resize(noisy_.size());
         forEach([this](int x, int y) { smoothVariance(x, y); });
-        guides_.resize(noisy_.size());
-        forEach([this](int x, int y) { makeGuides(x, y); });
+        fine_.resize(noisy_.size());
+        forEach([this](int x, int y) { makeFine(x, y); });
+        makeCoarse();
+        for (int kind = 0; kind < layout::fitCount; ++kind)
+            fits_[static_cast<std::size_t>(kind)] = fitted(kind);
         estimates_.resize(noisy_.size());
         errors_.resize(noisy_.size());
-        forEach([this](int x, int y) { regress(x, y); });
+        forEach([this](int x, int y) { estimate(x, y); });
         choices_.resize(noisy_.size());
         forEach([this](int x, int y) { choose(x, y); });
         std::vector<vec3> colours(noisy_.size());
@@ -94,10 +165,12 @@ class TileDenoiser {
         return at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1));
     }
 
-    template <class Pass> void forEach(const Pass &pass) const {
+    template <class Pass> void forEach(const Pass &pass) const { forEach(width_, height_, pass); }
+
+    template <class Pass> void forEach(int width, int height, const Pass &pass) const {
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threadCount_)
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
                 pass(x, y);
     }
 
@@ -146,74 +219,154 @@ class TileDenoiser {
         variance_[at(x, y)] = split_[at(x, y)].variance * ratio + 1e-10f;
     }
 
-    /// Means over 3 x 3 pixels, and the variance of the mean of all samples there.
-    void makeGuides(int x, int y) {
-        Split guide{};
-        around(x, y, layout::guideRadius, [&](std::size_t other, int, int) {
-            guide.first += split_[other].first;
-            guide.second += split_[other].second;
-            guide.variance += variance_[other];
-        });
-        guide.first *= 1.0f / 9.0f;
-        guide.second *= 1.0f / 9.0f;
-        guide.variance *= 1.0f / 81.0f;
-        guides_[at(x, y)] = guide;
-    }
-
-    void regress(int x, int y) {
+    /// With means of the halves over 3 x 3 pixels, and the variance of the mean of all samples there.
+    void makeFine(int x, int y) {
         const std::size_t own = at(x, y);
         const NoisyPixel &pixel = noisy_[own];
-        // The variance of a half's mean is that of all samples' over its share.
-        const float firstFactor = leaves::divide(1.0f, pixel.firstShare);
-        const float secondFactor = leaves::divide(1.0f, 1.0f - pixel.firstShare);
-        std::array<Moments, 2> firsts;  // of the first half, by weights of the second
-        std::array<Moments, 2> seconds; // narrow, wide
-        for (int dy = -layout::regressionRadius; dy <= layout::regressionRadius; ++dy)
-            for (int dx = -layout::regressionRadius; dx <= layout::regressionRadius; ++dx) {
-                if (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_)
-                    continue;
-                const std::size_t other = at(x + dx, y + dy);
-                const std::array<float, features> values = featuresOf(noisy_[other], pixel);
-                const auto distance = [&](vec3 Split::*half, float factor) {
-                    return leaves::jointDistance(
-                        leaves::colourDistance(guides_[other].*half, guides_[own].*half,
-                                               guides_[other].variance * factor,
-                                               guides_[own].variance * factor),
-                        leaves::colourDistance(split_[other].*half, split_[own].*half,
-                                               variance_[other] * factor, variance_[own] * factor));
-                };
-                const float byFirst = leaves::wideWeight(distance(&Split::first, firstFactor));
-                const float bySecond = leaves::wideWeight(distance(&Split::second, secondFactor));
-                firsts[0].add(leaves::narrowWeight(bySecond), values, split_[other].first);
-                firsts[1].add(bySecond, values, split_[other].first);
-                seconds[0].add(leaves::narrowWeight(byFirst), values, split_[other].second);
-                seconds[1].add(byFirst, values, split_[other].second);
-            }
-        const float shares = pixel.firstShare * (1.0f - pixel.firstShare);
-        const Split &halves = split_[own];
-        for (std::size_t i = 0; i < 2; ++i) {
-            const vec3 first = firsts[i].solved();
-            const vec3 second = seconds[i].solved();
-            estimates_[own][i] = first * pixel.firstShare + second * (1.0f - pixel.firstShare);
-            const vec3 difference = first - second;
-            errors_[own][i] = leaves::relativeError(estimates_[own][i], halves.first, halves.second,
-                                                    difference * difference * shares);
-        }
-        // Of the noisy colour itself, whose error and variance are one: the first term is minus that.
-        estimates_[own][2] = halves.first * pixel.firstShare + halves.second * (1.0f - pixel.firstShare);
-        errors_[own][2] = leaves::relativeError(estimates_[own][2], estimates_[own][2], halves.second,
-                                                halves.squares * 0.5f);
+        LevelPixel fine{pixel.firstShare, split_[own].first, split_[own].second, variance_[own], vec3(0.0f),
+                        vec3(0.0f),       vec3(0.0f),        pixel.albedo,       pixel.normal,   pixel.depth};
+        around(x, y, layout::guideRadius, [&](std::size_t other, int, int) {
+            fine.firstGuide += split_[other].first;
+            fine.secondGuide += split_[other].second;
+            fine.guideVariance += variance_[other];
+        });
+        fine.firstGuide *= 1.0f / 9.0f;
+        fine.secondGuide *= 1.0f / 9.0f;
+        fine.guideVariance *= 1.0f / 81.0f;
+        fine_[own] = fine;
     }
 
-    static std::array<float, features> featuresOf(const NoisyPixel &neighbour, const NoisyPixel &own) {
-        return {1.0f,
-                leaves::featureDifference(neighbour.albedo.x, own.albedo.x),
-                leaves::featureDifference(neighbour.albedo.y, own.albedo.y),
-                leaves::featureDifference(neighbour.albedo.z, own.albedo.z),
-                leaves::featureDifference(neighbour.normal.x, own.normal.x),
-                leaves::featureDifference(neighbour.normal.y, own.normal.y),
-                leaves::featureDifference(neighbour.normal.z, own.normal.z),
-                leaves::depthDifference(neighbour.depth, own.depth)};
+    /// The means of blocks.
+    void makeCoarse() {
+        const int width = layout::levelSize(width_, layout::fitCoarse);
+        const int height = layout::levelSize(height_, layout::fitCoarse);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int middleX = layout::blockSide * x + layout::blockSide / 2;
+                const int middleY = layout::blockSide * y + layout::blockSide / 2;
+                const LevelPixel &middle = fine_[near(middleX, middleY)];
+                LevelPixel mean{0.0f,
+                                middle.firstGuide,
+                                middle.secondGuide,
+                                middle.guideVariance,
+                                middle.firstGuide,
+                                middle.secondGuide,
+                                middle.guideVariance,
+                                vec3(0.0f),
+                                vec3(0.0f),
+                                0.0f};
+                around(middleX, middleY, 1, [&](std::size_t other, int, int) {
+                    mean.firstShare += fine_[other].firstShare;
+                    mean.depth += fine_[other].depth;
+                    mean.albedo += fine_[other].albedo;
+                    mean.normal += fine_[other].normal;
+                });
+                mean.firstShare *= 1.0f / 9.0f;
+                mean.depth *= 1.0f / 9.0f;
+                mean.albedo *= 1.0f / 9.0f;
+                mean.normal *= 1.0f / 9.0f;
+                coarse_.push_back(mean);
+            }
+    }
+
+    [[nodiscard]] const std::vector<LevelPixel> &levelOf(int kind) const {
+        return kind == layout::fitCoarse ? coarse_ : fine_;
+    }
+
+    /// Of an anchor, in its level.
+    [[nodiscard]] std::size_t placeOfAnchor(int x, int y, int kind) const {
+        const int width = layout::levelSize(width_, kind);
+        const int height = layout::levelSize(height_, kind);
+        return static_cast<std::size_t>(std::min(layout::placeOfAnchor(y), height - 1) * width +
+                                        std::min(layout::placeOfAnchor(x), width - 1));
+    }
+
+    [[nodiscard]] Fit fitted(int kind) const {
+        const int width = layout::levelSize(width_, kind);
+        const int height = layout::levelSize(height_, kind);
+        Fit fit{layout::anchorCount(width), layout::anchorCount(height), {}};
+        for (std::vector<Model> &models : fit.models)
+            models.resize(static_cast<std::size_t>(fit.width * fit.height));
+        const std::vector<LevelPixel> &level = levelOf(kind);
+        const int radius = layout::fitRadius(kind);
+        forEach(fit.width, fit.height, [&](int anchorX, int anchorY) {
+            const std::size_t place = placeOfAnchor(anchorX, anchorY, kind);
+            const int x = static_cast<int>(place) % width;
+            const int y = static_cast<int>(place) / width;
+            const LevelPixel &anchor = level[place];
+            const glm::vec2 factors = anchor.factors();
+            std::array<Moments, 2> halves;
+            for (int otherY = std::max(y - radius, 0); otherY <= std::min(y + radius, height - 1); ++otherY)
+                for (int otherX = std::max(x - radius, 0); otherX <= std::min(x + radius, width - 1);
+                     ++otherX) {
+                    const LevelPixel &other = level[static_cast<std::size_t>(otherY * width + otherX)];
+                    const std::array<float, features> values = other.featuresBy(anchor);
+                    const glm::vec2 distances =
+                        layout::sharpnessOf(kind) * other.distancesTo(anchor, factors);
+                    halves[0].add(leaves::weightOf(distances.y), values, other.first);
+                    halves[1].add(leaves::weightOf(distances.x), values, other.second);
+                }
+            for (std::size_t half = 0; half < 2; ++half)
+                fit.models[half][static_cast<std::size_t>(anchorY * fit.width + anchorX)] =
+                    halves[half].solved();
+        });
+        return fit;
+    }
+
+    /// What the models of the four nearest anchors say of the pixel, for both halves: means by how near and how alike they
+    /// are, and a little of its own colour.
+    [[nodiscard]] std::array<vec3, 2> halvesBy(int kind, int x, int y) const {
+        constexpr float ownWeight = 0.0009765625f;
+        const LevelPixel &pixel = fine_[at(x, y)];
+        const glm::vec2 factors = pixel.factors();
+        const Fit &fit = fits_[static_cast<std::size_t>(kind)];
+        const int step = layout::anchorStep(kind);
+        const int alongX = x - layout::firstAnchor(kind) + step; // from the anchor before the tile
+        const int alongY = y - layout::firstAnchor(kind) + step;
+        const float inverse = leaves::divide(1.0f, static_cast<float>(step));
+        const float beyondX = static_cast<float>(alongX % step) * inverse;
+        const float beyondY = static_cast<float>(alongY % step) * inverse;
+        glm::vec2 weights(ownWeight);
+        std::array<vec3, 2> halves{pixel.first * ownWeight, pixel.second * ownWeight};
+        for (int i = 0; i < 4; ++i) {
+            const int sideX = i & 1;
+            const int sideY = i >> 1;
+            const int anchorX = std::clamp(alongX / step - 1 + sideX, 0, fit.width - 1);
+            const int anchorY = std::clamp(alongY / step - 1 + sideY, 0, fit.height - 1);
+            const LevelPixel &anchor = levelOf(kind)[placeOfAnchor(anchorX, anchorY, kind)];
+            const float nearness =
+                (sideX == 1 ? beyondX : 1.0f - beyondX) * (sideY == 1 ? beyondY : 1.0f - beyondY);
+            const glm::vec2 distances = layout::sharpnessOf(kind) * pixel.distancesTo(anchor, factors);
+            const glm::vec2 weight =
+                nearness * glm::vec2(leaves::weightOf(distances.y), leaves::weightOf(distances.x));
+            const std::array<float, features> values = pixel.featuresBy(anchor);
+            const auto model = static_cast<std::size_t>(anchorY * fit.width + anchorX);
+            weights += weight;
+            halves[0] += weight.x * colourBy(fit.models[0][model], values);
+            halves[1] += weight.y * colourBy(fit.models[1][model], values);
+        }
+        return {halves[0] * leaves::divide(1.0f, weights.x), halves[1] * leaves::divide(1.0f, weights.y)};
+    }
+
+    void estimate(int x, int y) {
+        const std::size_t own = at(x, y);
+        const LevelPixel &pixel = fine_[own];
+        const float secondShare = 1.0f - pixel.firstShare;
+        std::array<vec3, estimateKinds> &estimates = estimates_[own];
+        for (int kind = 0; kind < layout::fitCount; ++kind) {
+            const auto [first, second] = halvesBy(kind, x, y);
+            const auto i = static_cast<std::size_t>(kind);
+            estimates[i] = first * pixel.firstShare + second * secondShare;
+            const vec3 difference = first - second;
+            errors_[own][i] = leaves::relativeError(
+                estimates[i], pixel.first, pixel.second,
+                difference * difference * (pixel.firstShare * secondShare), estimates[layout::fitWide]);
+        }
+        // Of the noisy colour itself, whose error and variance are one: the first term is minus that.
+        const vec3 noisy = pixel.first * pixel.firstShare + pixel.second * secondShare;
+        estimates[layout::estimateNoisy] = noisy;
+        errors_[own][layout::estimateNoisy] = leaves::relativeError(
+            noisy, noisy, pixel.second, split_[own].squares * 0.5f, estimates[layout::fitWide]);
     }
 
     /// The estimate with the least error in the neighbourhood, which counts less the further it is.
@@ -234,8 +387,11 @@ class TileDenoiser {
         around(x, y, layout::choiceRadius,
                [&](std::size_t other, int, int) { counts[choices_[other]] += 1.0f; });
         const std::array<vec3, estimateKinds> &estimates = estimates_[at(x, y)];
-        if (leaves::isCertain(estimates[2], split_[at(x, y)].variance))
-            return estimates[2];
+        const vec3 &noisy = estimates[layout::estimateNoisy];
+        const LevelPixel &pixel = fine_[at(x, y)];
+        const vec3 mean = pixel.firstGuide * pixel.firstShare + pixel.secondGuide * (1.0f - pixel.firstShare);
+        if (leaves::isCertain(noisy, split_[at(x, y)].variance, mean))
+            return noisy;
         vec3 sum(0.0f);
         for (std::size_t i = 0; i < estimateKinds; ++i)
             sum += estimates[i] * counts[i];
@@ -248,7 +404,9 @@ class TileDenoiser {
     int threadCount_;
     std::vector<Split> split_;
     std::vector<vec3> variance_; ///< of the mean of all samples
-    std::vector<Split> guides_;
+    std::vector<LevelPixel> fine_;
+    std::vector<LevelPixel> coarse_;
+    std::array<Fit, layout::fitCount> fits_{};
     std::vector<std::array<vec3, estimateKinds>> estimates_;
     std::vector<std::array<float, estimateKinds>> errors_;
     std::vector<std::size_t> choices_;

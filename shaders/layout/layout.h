@@ -675,9 +675,9 @@ struct DispatchConstants {
     uint workBudget;     // of DispatchProgress::workDone
     uint samplesPerSlot; // the mean number that are taken one after another
     uint isGathered;     // 1: the film's pixels are from anywhere in the image
+    uint fit;            // of the denoiser
     uint pad0;
     uint pad1;
-    uint pad2;
 };
 
 // The buffer of a gathered film has its pixels, and then a word for each of them: its position in the whole image.

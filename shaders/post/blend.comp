@@ -20,8 +20,12 @@ void main() {
     vec3 sum = vec3(0.0);
     [[unroll]] for (int i = 0; i < estimateCount; ++i)
         sum += loadVector(estimateTexels, place * estimateCount + i) * counts[i];
-    vec3 noisy = loadVector(estimateTexels, place * estimateCount + 2);
+    vec3 noisy = loadVector(estimateTexels, place * estimateCount + estimateNoisy);
     vec3 blended = greater(sum * (1.0 / 25.0), vec3(0.0));
-    bool isNoisy = !isCertain(noisy, loadVector(splitTexels, place * splitRows + 2));
+    int level = place * levelRows;
+    float firstShare = loadNumber(levelTexels, level + levelFirst);
+    vec3 around = loadVector(levelTexels, level + levelGuides) * firstShare +
+                  loadVector(levelTexels, level + levelGuides + 1) * (1.0 - firstShare);
+    bool isNoisy = !isCertain(noisy, loadVector(splitTexels, place * splitRows + 2), around);
     storeVector(denoisedTexels, place, isNoisy ? blended : noisy);
 }

@@ -1,4 +1,5 @@
-// Third pass of the denoiser: what weights are made of, means of the halves over 3 x 3 pixels with their variance.
+// Third pass of the denoiser: the fine level. Weights are made of means of the halves over 3 x 3 pixels, with their
+// variance, and of those of the pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"
@@ -16,8 +17,14 @@ void main() {
             second += loadVector(splitTexels, other * splitRows + 1);
             variance += loadVector(varianceTexels, other);
         }
-    int place = placeOf(own) * guideRows;
-    storeVector(guideTexels, place, first * (1.0 / 9.0));
-    storeVector(guideTexels, place + 1, second * (1.0 / 9.0));
-    storeVector(guideTexels, place + 2, variance * (1.0 / 81.0));
+    int place = placeOf(own);
+    int level = place * levelRows;
+    storeWithNumber(levelTexels, level + levelFirst, loadVector(splitTexels, place * splitRows), noisyNumber(place, 0));
+    storeVector(levelTexels, level + levelSecond, loadVector(splitTexels, place * splitRows + 1));
+    storeVector(levelTexels, level + levelVariance, loadVector(varianceTexels, place));
+    storeVector(levelTexels, level + levelGuides, first * (1.0 / 9.0));
+    storeVector(levelTexels, level + levelGuides + 1, second * (1.0 / 9.0));
+    storeVector(levelTexels, level + levelGuides + 2, variance * (1.0 / 81.0));
+    storeWithNumber(levelTexels, level + levelAlbedo, noisyVector(place, 3), noisyNumber(place, 1));
+    storeVector(levelTexels, level + levelNormal, noisyVector(place, 4));
 }

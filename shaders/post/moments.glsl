@@ -1,4 +1,4 @@
-// The sums of a regression over the neighbours of a pixel. All is written out, for each feature m and those up to it:
+// The sums of a regression over the neighbours of an anchor. All is written out, for each feature m and those up to it:
 // drivers take seconds to unroll loops in loops.
 #define UP_TO_0(DO, m) DO(m, 0)
 #define UP_TO_1(DO, m) UP_TO_0(DO, m) DO(m, 1)
@@ -52,14 +52,20 @@ void add(inout Moments moments, float weight, float features[featureCount], vec3
     UP_TO_M(LOAD_PIVOT, m) \
     pivotSum = moments.sums[m]; \
     inverse = divide(1.0, greater(pivot[m] + ridge, 1e-7)); \
+    inverses[m] = inverse; \
     ROWS_BELOW_M(SUBTRACT_ROW)
+#define SUBTRACT_KNOWN(m, l) moments.sums[m] -= moments.products[m * (m + 1) / 2 + l] * moments.sums[l];
+#define SUBSTITUTE(m, UP_TO_BELOW_M) \
+    UP_TO_BELOW_M(SUBTRACT_KNOWN, m) \
+    moments.sums[m] = moments.sums[m] * inverses[m];
 
-// The value where all differences of features are 0: elimination from the last feature to the constant.
-vec3 solved(Moments moments) {
+// Coefficients of the features in place of the sums: elimination from the last feature to the constant, and back.
+void solve(inout Moments moments) {
     float ridge = moments.products[0] * 1e-5;
     float pivot[featureCount];
     vec3 pivotSum;
     float inverse;
+    float inverses[featureCount];
     float factor;
     ELIMINATE(7, UP_TO_7, ROWS_BELOW_7)
     ELIMINATE(6, UP_TO_6, ROWS_BELOW_6)
@@ -68,5 +74,12 @@ vec3 solved(Moments moments) {
     ELIMINATE(3, UP_TO_3, ROWS_BELOW_3)
     ELIMINATE(2, UP_TO_2, ROWS_BELOW_2)
     ELIMINATE(1, UP_TO_1, ROWS_BELOW_1)
-    return moments.sums[0] * divide(1.0, greater(moments.products[0], 1e-7));
+    moments.sums[0] = moments.sums[0] * divide(1.0, greater(moments.products[0], 1e-7));
+    SUBSTITUTE(1, UP_TO_0)
+    SUBSTITUTE(2, UP_TO_1)
+    SUBSTITUTE(3, UP_TO_2)
+    SUBSTITUTE(4, UP_TO_3)
+    SUBSTITUTE(5, UP_TO_4)
+    SUBSTITUTE(6, UP_TO_5)
+    SUBSTITUTE(7, UP_TO_6)
 }

