@@ -39,12 +39,13 @@ inline constexpr std::array denoiserViews{Integrator::Albedo, Integrator::Normal
     return noise > 0.0 ? std::min(samplesPerPixel, samplesBesideNoise) : samplesPerPixel;
 }
 
-/// The samples of a view for each pixel: those of the image, or the pixel's centre. A few are enough for the denoiser.
+/// The samples of a view for each pixel: those of the image, or the pixel's centre. Half as many, and a few, are
+/// enough for the denoiser.
 [[nodiscard]] constexpr int samplesOfView(Integrator view, int samplesPerPixel, bool areLayersThrough,
                                           bool isOfDenoiser = false) {
     constexpr int maxForDenoiser = 8;
     if (isOfDenoiser)
-        return std::min(samplesPerPixel, maxForDenoiser);
+        return std::clamp(samplesPerPixel / 2, 1, maxForDenoiser);
     return isOfCentres(view, areLayersThrough) ? 1 : samplesPerPixel;
 }
 

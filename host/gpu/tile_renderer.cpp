@@ -94,7 +94,7 @@ SpecializationConstants constantsOf(const RenderConfig &config, const Job &job, 
     constants[layout::constantTrianglePairs] =
         testsPairs ? static_cast<std::uint32_t>(scene.listedPairs(job.settings.integrator)) : 0;
     constants[layout::constantHasPairs] = testsPairs && scene.hasPairs;
-    constants[layout::constantView] = rowOf(job.settings.integrator).view;
+    constants[layout::constantView] = viewOf(job.settings);
     constants[layout::constantPlaceCount] = static_cast<std::uint32_t>(scene.places.size());
     constants[layout::constantTallies] = rowOf(job.settings.integrator).tallies();
     constants[layout::constantLooksThrough] = isLookingThrough;

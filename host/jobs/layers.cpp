@@ -96,6 +96,44 @@ RenderSettings settingsOf(const PictureView &view, const RenderSettings &ofImage
     return settings;
 }
 
+/// How many of the views one render finds: the denoiser's, if they come first, or the first one.
+std::size_t viewsOfOneRender(std::span<const PictureView> views) {
+    const bool areOfDenoiser = views.size() >= denoiserViews.size() &&
+                               std::ranges::equal(denoiserViews, views.first(denoiserViews.size()),
+                                                  [](Integrator view, const PictureView &of) {
+                                                      return of == PictureView{view, true};
+                                                  });
+    return areOfDenoiser ? denoiserViews.size() : 1;
+}
+
+/// The films of albedo, normal and depth, of one render, as that has them: see layout::viewFeatures.
+Film joined(std::vector<Film> films) {
+    Film film = std::move(films[0]);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        layout::FilmPixel &pixel = film.pixels[i];
+        pixel.sumOfSquares = films[1].pixels[i].sum;
+        pixel.squaresRest = films[1].pixels[i].sumRest;
+        pixel.transparency = films[2].pixels[i].sum.x;
+        pixel.transparencyRest = films[2].pixels[i].sumRest.x;
+    }
+    return film;
+}
+
+/// The inverse of `joined`. Their squares are not known.
+std::vector<Film> parted(const Film &film) {
+    std::vector<Film> films(denoiserViews.size(), Film(film.crop));
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        const layout::FilmPixel &pixel = film.pixels[i];
+        const auto set = [&](std::size_t of, const glm::vec3 &sum, const glm::vec3 &rest) {
+            films[of].pixels[i] = {.sum = sum, .sampleCount = pixel.sampleCount, .sumRest = rest};
+        };
+        set(0, pixel.sum, pixel.sumRest);
+        set(1, pixel.sumOfSquares, pixel.squaresRest);
+        set(2, glm::vec3(pixel.transparency), glm::vec3(pixel.transparencyRest));
+    }
+    return films;
+}
+
 } // namespace
 
 std::vector<PictureView> layerViewsOf(const PreparedScene &scene) {
@@ -134,26 +172,38 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
                                   std::span<const PictureView> views, std::span<const Crop> squares,
                                   std::span<const Film> begun, Observer &observer, const TimeLimit &limit) {
     std::vector<ViewFilm> films;
-    for (const PictureView &view : views) {
-        std::vector<std::string> names = scene.packed.namesOf(view.view);
-        const RenderSettings settings = settingsOf(view, scene.loaded.settings);
-        Film film(scene.crop);
+    while (films.size() < views.size()) {
+        const PictureView &view = views[films.size()];
+        RenderSettings settings = settingsOf(view, scene.loaded.settings);
         RenderTask task{.name = std::string(nameOf(view.view)), .limit = limit};
+        std::vector<Film> found(viewsOfOneRender(views.subspan(films.size())), Film(scene.crop));
+        settings.areFeaturesShown = found.size() > 1;
         bool isFinished = false;
         if (!squares.empty()) {
-            film = filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
-            if (films.size() < begun.size())
-                setRecordsIn(film, squares, recordsIn(begun[films.size()], squares));
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                found[i] =
+                    filmOfSquares(scene.crop, squares, static_cast<std::uint32_t>(settings.samplesPerPixel));
+                if (films.size() + i < begun.size())
+                    setRecordsIn(found[i], squares, recordsIn(begun[films.size() + i], squares));
+            }
             task.shareOfOthers = shareOutside(scene.crop, squares);
-            isFinished = finishedWork(film, squares, settings.samplesPerPixel).isComplete;
+            isFinished = finishedWork(found[0], squares, settings.samplesPerPixel).isComplete;
         }
         if (!isFinished && !observer.wantsStop() && !limit.isReached()) {
+            Film film = settings.areFeaturesShown ? joined(std::move(found)) : std::move(found[0]);
             film =
                 unlessFailed(render(backend, scene.packed, settings, std::move(film), observer, task)).film;
             if (view.view == Integrator::Depth && isOfCentres(view.view, settings.areLayersThrough))
                 flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
+            if (settings.areFeaturesShown)
+                found = parted(film);
+            else
+                found[0] = std::move(film);
         }
-        films.push_back({view.view, std::move(film), std::move(names), view.isOfDenoiser});
+        for (Film &film : found) {
+            const PictureView &of = views[films.size()];
+            films.push_back({of.view, std::move(film), scene.packed.namesOf(of.view), of.isOfDenoiser});
+        }
     }
     return films;
 }

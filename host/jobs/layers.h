@@ -13,6 +13,8 @@ namespace hyalite::core {
 struct PictureView {
     Integrator view;
     bool isOfDenoiser = false;
+
+    bool operator==(const PictureView &) const = default;
 };
 
 /// Those of a picture of `scene`: its layers, then those that the denoiser needs, if its settings keep them.

@@ -50,6 +50,16 @@ template <class Real, class SampleIntegrator> Real transparencyOf(const SampleIn
     return Real(0);
 }
 
+/// Adds the integrator's last sample.
+template <class Real, class SampleIntegrator>
+FilmPixel<Real> withSampleOf(const SampleIntegrator &integrator, const FilmPixel<Real> &sums,
+                             const Vec3<Real> &radiance) {
+    if constexpr (requires { integrator.features(); })
+        if (const auto beside = integrator.features())
+            return withAddends(sums, withoutSubnormals<Real>(radiance), beside->normal, beside->depth);
+    return withSample(sums, radiance, transparencyOf<Real>(integrator));
+}
+
 /// Counts samples by their numbers until `film` has `sampleCount`, or `isLast`, called after each, returns true.
 /// Returns the number of added samples.
 template <class SampleIntegrator, class IsLast>
@@ -103,7 +113,7 @@ std::uint32_t renderPixel(SampleIntegrator &integrator, const glm::uvec2 &pixel,
         const Vec3<Real> radiance = integrator.sampleRadiance(pixel, finishedCount);
         if (isAbandoned(integrator))
             break;
-        sums = withSample(sums, radiance, transparencyOf<Real>(integrator));
+        sums = withSampleOf(integrator, sums, radiance);
         if constexpr (requires { integrator.light(); })
             if (!light.empty())
                 lightSums.add(integrator.light());

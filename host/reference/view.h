@@ -19,8 +19,19 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
   public:
     /// `view` is one of layout::view...
     ViewIntegrator(const PackedScene &scene, const RenderSettings &settings)
-        : Base(scene, settings, CarriesRadiance::No), view_(rowOf(settings.integrator).view),
+        : Base(scene, settings, CarriesRadiance::No), view_(viewOf(settings)),
           looksThrough_(looksThrough(settings.integrator, settings)) {}
+
+    /// What a sample of features has beside the albedo.
+    struct Beside {
+        Vec3<Real> normal; ///< as a colour
+        Real depth;
+    };
+
+    /// Of the last sample; null of other views.
+    [[nodiscard]] std::optional<Beside> features() const {
+        return view_ == layout::viewFeatures ? std::optional(beside_) : std::nullopt;
+    }
 
     /// The colour of one sample of a pixel of the whole image. `shift` moves the sample by this many pixels, to learn
     /// how the picture changes around it.
@@ -76,7 +87,8 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
     }
 
     /// What a path that has left the scene shows: a normal has no length.
-    [[nodiscard]] Vec3<Real> ofNothing() const {
+    [[nodiscard]] Vec3<Real> ofNothing() {
+        beside_ = {normalColour(Vec3<Real>(Real(0))), Real(0)};
         if (looksThrough_ && view_ == layout::viewNormal)
             return normalColour(Vec3<Real>(Real(0)));
         return Vec3<Real>(Real(view_ == layout::viewOcclusion ? 1 : 0));
@@ -97,7 +109,9 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
         }
         case layout::viewId:
             return show(idColour<Real>(hit.primitive));
+        case layout::viewFeatures:
         case layout::viewAlbedo: {
+            beside_ = {normalColour(surface.normal), pathLength_ + hit.distance};
             const Real cosine = abs(dotProduct(ray.direction, surface.normal));
             const Vec3<Real> colour = albedoForViews(scene_, material, cosine);
             return show(looksThrough_ ? withoutTiny<Real>(throughput_ * colour) : colour);
@@ -129,7 +143,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
         const bool isMixed = isMixture(scene_, material);
         if (!isClear || (isBehind && isMixed && isBlackBehind(scene_, material)))
             return std::nullopt;
-        if (view_ == layout::viewDepth)
+        if (view_ == layout::viewDepth || view_ == layout::viewFeatures)
             static_cast<void>(show(Vec3<Real>(pathLength_ += hit.distance)));
         const bool isMetal = isLookedAtAsMetal(material);
         if (holdsMedium(scene_, material) && !isMetal) {
@@ -235,6 +249,7 @@ template <class Real, class Counter = NoCounter> class ViewIntegrator : public S
     const std::uint32_t view_;
     const bool looksThrough_;
     Real pathLength_ = 0; ///< without the current segment
+    Beside beside_{};
 };
 
 } // namespace hyalite::core::reference

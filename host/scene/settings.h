@@ -48,7 +48,15 @@ struct RenderSettings {
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
+    /// For the denoiser alone, without a row: a sample of Albedo has the normal and the depth beside it, and the film their
+    /// sums in place of squares and transparency.
+    bool areFeaturesShown = false;
 };
+
+/// layout::view...: what the kernel "view" shows.
+[[nodiscard]] inline std::uint32_t viewOf(const RenderSettings &settings) {
+    return settings.areFeaturesShown ? layout::viewFeatures : rowOf(settings.integrator).view;
+}
 
 /// layout::alpha...: the background that is transparent.
 [[nodiscard]] inline std::uint32_t alphaKindOf(const RenderSettings &settings) {

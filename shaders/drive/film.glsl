@@ -2,7 +2,7 @@
 //
 // The slots of a pixel share its sums: the slot at lane L of a pixel keeps the sums n with n mod samplesInFlight = L.
 // Numbers 0 to 2 are the sums of the channels, 4 to 6 those of squares; 3 is the count of samples, 7 the sum of
-// transparency.
+// transparency. Of features, 4 to 7 are normals and depths.
 //
 // A film that tallies has counts of samples by their numbers instead (layout.h), which stay in the buffer.
 
@@ -15,6 +15,7 @@ const uint filmSampleCountWord = 3u;
 const uint filmRestWords = 4u; // from a sum to its rest
 const uint filmSums = 8u;
 const uint transparencySum = 7u;
+const bool hasTransparencySum = hasAlpha || showsFeatures;
 
 const uint lightSums = 3u * lightPlanes;
 
@@ -87,7 +88,7 @@ void storeFilm(uint slot) {
         uint number = first + sampleLane(slot);
         uint word = filmWord(slot, number);
         bool isCount = number == filmSampleCountWord;
-        bool isKept = isSlotUsed[slot] && (hasAlpha || number != transparencySum);
+        bool isKept = isSlotUsed[slot] && (hasTransparencySum || number != transparencySum);
         if (isKept)
             filmWords[word] = isCount ? filmSampleCount[slot] : floatBitsToUint(filmSum[slot][first].value);
         if (isKept && !isCount)
@@ -154,8 +155,16 @@ void addSamples(uint slot) {
     exchangeInPixel(floatBitsToUint(colour.x), red);
     exchangeInPixel(floatBitsToUint(colour.y), green);
     exchangeInPixel(floatBitsToUint(colour.z), blue);
-    if (hasAlpha)
-        exchangeInPixel(floatBitsToUint(sampleTransparency()), clear);
+    if (hasTransparencySum)
+        exchangeInPixel(floatBitsToUint(showsFeatures ? path.scatterPdf : sampleTransparency()), clear);
+    uint normalX[maxSamplesInFlight];
+    uint normalY[maxSamplesInFlight];
+    uint normalZ[maxSamplesInFlight];
+    if (showsFeatures) {
+        exchangeInPixel(floatBitsToUint(path.lightWeight.x), normalX);
+        exchangeInPixel(floatBitsToUint(path.lightWeight.y), normalY);
+        exchangeInPixel(floatBitsToUint(path.lightWeight.z), normalZ);
+    }
     [[unroll]] for (uint first = 0u; first < filmSums; first += samplesInFlight) {
         uint number = first + sampleLane(slot);
         uint channel = number & 3u;
@@ -163,7 +172,11 @@ void addSamples(uint slot) {
             uint bits = channel == 0u ? red[lane] : channel == 1u ? green[lane] : blue[lane];
             float radiance = withoutSubnormals(uintBitsToFloat(bits));
             float added = number < 4u ? radiance : withoutSubnormals(radiance * radiance);
-            if (hasAlpha)
+            if (showsFeatures) {
+                uint normal = channel == 0u ? normalX[lane] : channel == 1u ? normalY[lane] : normalZ[lane];
+                added = number < 4u ? radiance : uintBitsToFloat(normal);
+            }
+            if (hasTransparencySum)
                 added = number == transparencySum ? uintBitsToFloat(clear[lane]) : added;
             filmSum[slot][first] = plus(filmSum[slot][first], added);
         }

@@ -18,6 +18,7 @@ const bool dispersesLight = (scattering & scattersAtDispersion) != 0u;
 const bool hasChains = hasSpecular;
 const bool sendsShadowRays = true;
 const bool goesOn = true;
+const bool showsFeatures = false;
 
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/specular.glsl"

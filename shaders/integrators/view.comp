@@ -12,7 +12,8 @@
 // Normals, depths and albedos may look through mirrors and clear glass (isLookedThrough), as auxiliary layers of
 // denoisers do: they are those of the first other surface of the path that the path integrator would follow, or of the
 // last one that maxDepth allows. The albedo is multiplied by the colours of mirrors and glass on the way; the depth is
-// the length of the path; normals are turned towards the ray. Paths that leave the scene show 0.
+// the length of the path; normals are turned towards the ray. Paths that leave the scene show 0. Features of the denoiser
+// are all three, of one path.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -29,6 +30,9 @@ const bool dispersesLight = false;
 const bool hasChains = view == viewShadow || looksThrough;
 const bool sendsShadowRays = view == viewOcclusion;
 const bool goesOn = false;
+const bool showsFeatures = view == viewFeatures;
+const bool showsAlbedo = view == viewAlbedo || showsFeatures;
+const bool addsLengths = view == viewDepth || showsFeatures; // of segments, in the radiance
 
 #include "shaders/kernels/stages.glsl"
 #include "shaders/integrators/specular.glsl"
@@ -36,7 +40,7 @@ const bool goesOn = false;
 // Textures that say whether a material is looked through, and what it reflects.
 const uint texturesOfClearness = texturesRoughness | texturesMetallic | texturesTransmission |
                                  1u << slotDielectricWeight | 1u << slotDielectricColour |
-                                 (view == viewAlbedo
+                                 (showsAlbedo
                                       ? texturesBaseColour | texturesIridescence | texturesDiffuseTransmission
                                       : 0u);
 
@@ -48,6 +52,10 @@ const uint texturesOfAlbedo =
          : 0u);
 
 void begin() {
+    if (showsFeatures) { // of lanes without a sample
+        path.lightWeight = vec3(0.0);
+        path.scatterPdf = 0.0;
+    }
     if (looksThrough)
         beginInMedia();
     else
@@ -157,7 +165,7 @@ bool lookThrough(const Answer answer, const Surface surface,
         isSpecularHere(path.mediaInside, material, materialIndex, !isBehind) || isLookedThrough(material);
     if (!isClear || (isBehind && isMixture(material) && isBlackBehind(material)))
         return false;
-    if (view == viewDepth)
+    if (addsLengths)
         show(path.radiance + vec3(answer.hit.distance));
     bool isMetal = isLookedAtAsMetal(material);
     if (hasDielectric && holdsMedium(material) && !isMetal) {
@@ -173,8 +181,16 @@ bool lookThrough(const Answer answer, const Surface surface,
     return true;
 }
 
+// The features beside the albedo: members that views have no other use for.
+void showBeside(vec3 normal, float depth) {
+    path.lightWeight = normalColour(normal);
+    path.scatterPdf = depth;
+}
+
 // What a path that has left the scene shows: a normal has no length.
 vec3 ofNothing() {
+    if (showsFeatures)
+        showBeside(vec3(0.0), 0.0);
     if (looksThrough && view == viewNormal)
         return normalColour(vec3(0.0));
     return vec3(view == viewOcclusion ? 1.0 : 0.0);
@@ -193,7 +209,9 @@ void showSurface(const Answer answer, const Surface surface,
         vec2 uv = hitUvs(answer.hit, surface.position).first;
         show(vec3(fractionOf(uv.x), fractionOf(uv.y), 0.0));
     }
-    if (view == viewAlbedo) {
+    if (showsFeatures)
+        showBeside(surface.normal, path.radiance.x + answer.hit.distance);
+    if (showsAlbedo) {
         MaterialRecord material = hitMaterial(answer.hit, fetchMaterial(materialIndex), texturesOfAlbedo,
                                               surface.position);
         vec3 colour = albedoForViews(material, abs(dotProduct(request.ray.direction, surface.normal)));

@@ -16,6 +16,7 @@ const bool hasBounces = false;
 const bool hasChains = hasSpecular;
 const bool sendsShadowRays = true;
 const bool goesOn = hasSpecular || lightCount > 1u;
+const bool showsFeatures = false;
 
 #include "shaders/kernels/stages.glsl"
 

@@ -588,11 +588,13 @@ const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
 const uint viewCoordinates = 5u; // fractional parts of the texture coordinates
 const uint viewShadow = 6u; // of shadow catchers: 1, a light sample, and what of it is blocked
+// Of the denoiser: albedo, and beside it, in place of squares and transparency, what the views of normals and depths show.
+const uint viewFeatures = 7u;
 // From here on numbers, from 1 on; 0 for nothing.
-const uint viewObject = 7u;
-const uint viewMaterial = 8u;
-const uint viewAsset = 9u;
-const uint viewPlace = 10u;
+const uint viewObject = 8u;
+const uint viewMaterial = 9u;
+const uint viewAsset = 10u;
+const uint viewPlace = 11u;
 
 // ---- Frame constants: the same for a whole render
 

@@ -22,10 +22,8 @@ CompensatedSum plus(CompensatedSum sum, float added) {
     return CompensatedSum(value, isKept ? rest : 0.0);
 }
 
-// A pixel of the film with one more sample. Its count is the caller's.
-FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance, float sampleTransparency) {
-    vec3 radiance = withoutSubnormals(sampleRadiance);
-    vec3 squared = withoutSubnormals(radiance * radiance);
+// A pixel of the film with one more addend to each sum. Its count is the caller's.
+FilmPixel withAddends(FilmPixel pixel, vec3 radiance, vec3 squared, float transparency) {
     for (int channel = 0; channel < 3; ++channel) {
         CompensatedSum sum = plus(CompensatedSum(pixel.sum[channel], pixel.sumRest[channel]), radiance[channel]);
         CompensatedSum squares =
@@ -35,8 +33,14 @@ FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance, float sampleTranspare
         pixel.sumOfSquares[channel] = squares.value;
         pixel.squaresRest[channel] = squares.rest;
     }
-    CompensatedSum clear = plus(CompensatedSum(pixel.transparency, pixel.transparencyRest), sampleTransparency);
+    CompensatedSum clear = plus(CompensatedSum(pixel.transparency, pixel.transparencyRest), transparency);
     pixel.transparency = clear.value;
     pixel.transparencyRest = clear.rest;
     return pixel;
+}
+
+// With one more sample.
+FilmPixel withSample(FilmPixel pixel, vec3 sampleRadiance, float sampleTransparency) {
+    vec3 radiance = withoutSubnormals(sampleRadiance);
+    return withAddends(pixel, radiance, withoutSubnormals(radiance * radiance), sampleTransparency);
 }

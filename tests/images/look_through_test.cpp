@@ -100,8 +100,7 @@ TestScene crowd() {
 
 class LookThrough : public ::testing::TestWithParam<Integrator> {};
 
-TEST_P(LookThrough, HasTheSameBitsOnTheDevice) {
-    const TestScene scene = through(crowd(), GetParam());
+void expectTwins(const TestScene &scene) {
     const PackedScene packed = testing::pack(scene);
     const reference::Result wanted = renderOnCpu(scene, packed);
     EXPECT_GT(wanted.rays.reflection, 100u);
@@ -114,6 +113,15 @@ TEST_P(LookThrough, HasTheSameBitsOnTheDevice) {
         EXPECT_EQ(testing::differingPixels(device.film, wanted.film), 0u) << gpu::kernelName(config);
         EXPECT_EQ(device.rays, wanted.rays) << gpu::kernelName(config);
     }
+}
+
+TEST_P(LookThrough, HasTheSameBitsOnTheDevice) { expectTwins(through(crowd(), GetParam())); }
+
+// What the denoiser needs: albedos, with normals and depths beside them.
+TEST(Features, HaveTheSameBitsOnTheDevice) {
+    TestScene scene = through(crowd(), Integrator::Albedo);
+    scene.settings.areFeaturesShown = true;
+    expectTwins(scene);
 }
 
 // A few spheres and metals of glTF alone, which no other integrator takes for mirrors.

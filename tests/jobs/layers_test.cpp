@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <span>
+#include <vector>
 
 namespace hyalite::core {
 namespace {
@@ -45,6 +46,34 @@ TEST(Layers, NormalsAreSigned) {
     EXPECT_EQ(rowOf(layers[0], 6), (std::vector{-1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}));
 }
 
+// One render finds what three would.
+TEST(Layers, OfTheDenoiserAreThoseOfEachView) {
+    SceneOptions options;
+    options.scene = "spheres";
+    options.width = options.height = 24;
+    const PreparedScene scene = prepareScene(options, Source::Dropped, nobody());
+    const auto backend = openBackend("cpu", nobody());
+    std::vector<PictureView> views;
+    for (const Integrator view : denoiserViews)
+        views.push_back({view, true});
+    const std::vector<ViewFilm> together =
+        renderViews(*backend, scene, views, {}, {}, nobody(), TimeLimit(std::nullopt));
+    ASSERT_EQ(together.size(), views.size());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const std::vector<ViewFilm> alone =
+            renderViews(*backend, scene, std::span(&views[i], 1), {}, {}, nobody(), TimeLimit(std::nullopt));
+        EXPECT_EQ(together[i].view, views[i].view);
+        EXPECT_TRUE(together[i].isOfDenoiser);
+        for (std::size_t pixel = 0; pixel < together[i].film.pixels.size(); ++pixel) {
+            const layout::FilmPixel &a = together[i].film.pixels[pixel];
+            const layout::FilmPixel &b = alone[0].film.pixels[pixel];
+            ASSERT_EQ(a.sum, b.sum) << i << ' ' << pixel;
+            ASSERT_EQ(a.sumRest, b.sumRest) << i << ' ' << pixel;
+            ASSERT_EQ(a.sampleCount, b.sampleCount) << i << ' ' << pixel;
+        }
+    }
+}
+
 // A blurred background: the layer that looks through has the samples of the picture, the denoiser's albedo its own.
 TEST(Layers, OfTheDenoiserHaveNoNoiseInCommonWithOthers) {
     constexpr int side = 48;
@@ -65,7 +94,7 @@ TEST(Layers, OfTheDenoiserHaveNoNoiseInCommonWithOthers) {
     };
     const Image truth = albedoOf(false, 7, 1024);
     const Image layer = albedoOf(false, 0, 8);
-    const Image data = albedoOf(true, 0, 8);
+    const Image data = albedoOf(true, 0, 16);
     double ofLayer = 0.0;
     double ofData = 0.0;
     double ofBoth = 0.0;
