@@ -125,7 +125,10 @@ std::vector<Film> parted(const Film &film) {
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const layout::FilmPixel &pixel = film.pixels[i];
         const auto set = [&](std::size_t of, const glm::vec3 &sum, const glm::vec3 &rest) {
-            films[of].pixels[i] = {.sum = sum, .sampleCount = pixel.sampleCount, .sumRest = rest};
+            layout::FilmPixel &to = films[of].pixels[i];
+            to.sum = sum;
+            to.sumRest = rest;
+            to.sampleCount = pixel.sampleCount;
         };
         set(0, pixel.sum, pixel.sumRest);
         set(1, pixel.sumOfSquares, pixel.squaresRest);

@@ -313,8 +313,8 @@ class TileDenoiser {
         return fit;
     }
 
-    /// What the models of the four nearest anchors say of the pixel, for both halves: means by how near and how alike they
-    /// are, and a little of its own colour.
+    /// What the models of the four nearest anchors say of the pixel, for both halves: means by how near and how alike
+    /// they are, and a little of its own colour.
     [[nodiscard]] std::array<vec3, 2> halvesBy(int kind, int x, int y) const {
         constexpr float ownWeight = 0.0009765625f;
         const LevelPixel &pixel = fine_[at(x, y)];

@@ -48,8 +48,8 @@ struct RenderSettings {
     /// For profiles alone, without a row: a sample is the traversal work of the integrator's sample, as Cost is that of
     /// Whitted.
     bool isWorkShown = false;
-    /// For the denoiser alone, without a row: a sample of Albedo has the normal and the depth beside it, and the film their
-    /// sums in place of squares and transparency.
+    /// For the denoiser alone, without a row: a sample of Albedo has the normal and the depth beside it, and the film
+    /// their sums in place of squares and transparency.
     bool areFeaturesShown = false;
 };
 

@@ -12,8 +12,8 @@
 // Normals, depths and albedos may look through mirrors and clear glass (isLookedThrough), as auxiliary layers of
 // denoisers do: they are those of the first other surface of the path that the path integrator would follow, or of the
 // last one that maxDepth allows. The albedo is multiplied by the colours of mirrors and glass on the way; the depth is
-// the length of the path; normals are turned towards the ray. Paths that leave the scene show 0. Features of the denoiser
-// are all three, of one path.
+// the length of the path; normals are turned towards the ray. Paths that leave the scene show 0. Features of the
+// denoiser are all three, of one path.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

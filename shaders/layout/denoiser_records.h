@@ -26,8 +26,8 @@ struct NoisyPixel {
     uint unused2;
 };
 
-// Fits: regressions over neighbours of a colour on features, in two bandwidths over the pixels of the tile, which are the
-// fine level, and in the wide one over the means of blocks of them, the coarse level.
+// Fits: regressions over neighbours of colours on features, in two bandwidths over the pixels of the tile, which are
+// the fine level, and in the wide one over the means of blocks of them, the coarse level.
 const int fitWide = 0;
 const int fitNarrow = 1;
 const int fitCoarse = 2;
@@ -48,8 +48,8 @@ HYALITE_INLINE int levelSize(int tileSize, int fit) { return (tileSize + sideOfL
 // Pixels of the level on each side of one that is fitted.
 HYALITE_INLINE int fitRadius(int fit) { return fit == fitCoarse ? 4 : 5; }
 
-// How fast a fit's weights fall with the distance of colours: the standard deviation of the narrow one is 2^-1.5 times as
-// large.
+// How fast a fit's weights fall with the distance of colours: the standard deviation of the narrow one is 2^-1.5 times
+// as large.
 HYALITE_INLINE float sharpnessOf(int fit) { return fit == fitNarrow ? 4.0f : 0.5f; }
 
 // Anchors are the pixels of a level that are fitted, each second one along a side. The last may be beyond its end.
@@ -72,8 +72,8 @@ const int guideRadius = 1;
 const int errorRadius = 2;
 const int choiceRadius = 2;
 
-// Of a tile beyond its own pixels: what the passes above read, and estimates by a coarse fit, whose anchor is less than 6
-// pixels away, and its neighbours another 4 blocks, of which the last one ends a pixel further.
+// Of a tile beyond its own pixels: what the passes above read, and estimates by a coarse fit, whose anchor is less than
+// 6 pixels away, and its neighbours another 4 blocks, of which the last one ends a pixel further.
 const int denoiserMargin = 30;
 
 // Bindings, of texels: rows of 16 bytes, so many for a pixel.
@@ -89,8 +89,9 @@ const uint denoiserBindingCount = 8u;
 const int noisyRows = 5;
 const int splitRows = 4;
 
-// Rows of a level's pixel: means of the halves, the first with the first samples' share, and their variance; the same of
-// 3 x 3 pixels around; albedo, with depth; normal. Of a block, the first three are those of the pixels around its middle.
+// Rows of a level's pixel: means of the halves, the first with the first samples' share, and their variance; the same
+// of 3 x 3 pixels around; albedo, with depth; normal. Of a block, the first three are those of the pixels around its
+// middle.
 const int levelFirst = 0;
 const int levelSecond = 1;
 const int levelVariance = 2;

@@ -588,7 +588,8 @@ const uint viewId = 3u;     // a colour for each primitive
 const uint viewOcclusion = 4u;
 const uint viewCoordinates = 5u; // fractional parts of the texture coordinates
 const uint viewShadow = 6u; // of shadow catchers: 1, a light sample, and what of it is blocked
-// Of the denoiser: albedo, and beside it, in place of squares and transparency, what the views of normals and depths show.
+// Of the denoiser: albedo, and beside it, in place of squares and transparency, what the views of normals and depths
+// show.
 const uint viewFeatures = 7u;
 // From here on numbers, from 1 on; 0 for nothing.
 const uint viewObject = 8u;

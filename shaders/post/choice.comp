@@ -1,4 +1,5 @@
-// Seventh pass of the denoiser: the estimate with the least error in the neighbourhood, which counts less the further it is.
+// Seventh pass of the denoiser: the estimate with the least error in the neighbourhood, which counts less the further
+// it is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"

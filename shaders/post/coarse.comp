@@ -4,7 +4,7 @@
 #include "shaders/post/passes.glsl"
 
 void main() {
-    tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight);
+    readTileSize();
     ivec2 size = levelSizeOf(fitCoarse);
     if (!beginPassOver(size))
         return;

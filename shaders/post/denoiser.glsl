@@ -2,8 +2,8 @@
 //
 // B. Bitterli, F. Rousselle, B. Moon, J. A. Iglesias-Guitian, D. Adler, K. Mitchell, W. Jarosz, J. Novak, "Nonlinearly
 // Weighted First-order Regression for Denoising Monte Carlo Renderings", EGSR 2016: local regression on albedo, normal
-// and depth, by weights from the colours of the other half of the samples, in two bandwidths; and what each fit says of the
-// pixels around its own, as a mean.
+// and depth, by weights from the colours of the other half of the samples, in two bandwidths; and what each fit says of
+// the pixels around its own, as a mean.
 
 // 1/x within 3e-4 of it, for x in [1e-30, 1e30]: an estimate by the exponent, and two of Newton's steps.
 float roughInverse(float x) {
@@ -68,8 +68,8 @@ float depthDifference(float neighbour, float own) {
     return featureDifference(neighbour, own) * roughInverse(neighbour + own + 1e-9);
 }
 
-// The squared error of an estimate relative to a colour, up to a sum that is the same for all estimates: by the product of
-// what the two halves say, whose noise is independent, and the estimate's variance.
+// The squared error of an estimate relative to a colour, up to a sum that is the same for all estimates: by the product
+// of what the two halves say, whose noise is independent, and the estimate's variance.
 float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance, vec3 colour) {
     vec3 squared = (estimate - first) * (estimate - second) + 2.0 * variance;
     vec3 scale = colour * colour + 0.01;
@@ -77,8 +77,8 @@ float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance, vec3 
                        squared.z * roughInverse(scale.z));
 }
 
-// Whether a pixel has no noise: its mean has a standard deviation below a thousandth of it, and is not below that of the
-// pixels around it, as where all samples have missed a light.
+// Whether a pixel has no noise: its mean has a standard deviation below a thousandth of it, and is not below that of
+// the pixels around it, as where all samples have missed a light.
 bool isCertain(vec3 colour, vec3 variance, vec3 around) {
     vec3 allowed = colour * colour * 1e-6;
     vec3 least = around * 0.999;

@@ -1,6 +1,6 @@
 // Sixth pass of the denoiser: estimates of a pixel's colour. By each fit it is the mean of what the models of the four
-// nearest anchors say of the pixel, weighted by how near and how alike they are; a little of its own colour is there for a
-// pixel that none of them is like.
+// nearest anchors say of the pixel, weighted by how near and how alike they are; a little of its own colour is there
+// for a pixel that none of them is like.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"

@@ -1,6 +1,6 @@
 // Fifth pass of the denoiser, once for each fit: colours as linear functions of features, by a regression over the
-// neighbours of an anchor. Each half of the samples is fitted by weights that come from the other one, so that its noise does
-// not choose.
+// neighbours of an anchor. Each half of the samples is fitted by weights that come from the other one, so that its
+// noise does not choose.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"
@@ -13,7 +13,7 @@ void store(int place, const Moments solved) {
 }
 
 void main() {
-    tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight);
+    readTileSize();
     int fit = int(dispatchConstants.fit);
     ivec2 size = levelSizeOf(fit);
     ivec2 anchors = ivec2(anchorCount(size.x), anchorCount(size.y));

@@ -1,5 +1,6 @@
-// The beginning of every pass of the denoiser: an invocation does a pixel of the tile, or an anchor. What passes hand on lies in texels
-// of four words, several for a pixel (shaders/layout/denoiser_records.h), as drivers on CPUs read those quickly.
+// The beginning of every pass of the denoiser: an invocation does a pixel of the tile, or an anchor. What passes hand
+// on lies in texels of four words, several for a pixel (shaders/layout/denoiser_records.h), as drivers on CPUs read
+// those quickly.
 #extension GL_EXT_control_flow_attributes : require
 
 #include "shaders/layout/layout.h"
@@ -27,6 +28,8 @@ layout(set = 0, binding = bindingDenoised, rgba32ui) uniform restrict writeonly 
 ivec2 tileSize;
 ivec2 own; // the invocation's pixel or anchor
 
+void readTileSize() { tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight); }
+
 // Whether the invocation has a place among so many.
 bool beginPassOver(ivec2 size) {
     int index = int(gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex);
@@ -36,7 +39,7 @@ bool beginPassOver(ivec2 size) {
 
 // Whether the invocation has a pixel of the tile.
 bool beginPass() {
-    tileSize = ivec2(dispatchConstants.tileWidth, dispatchConstants.tileHeight);
+    readTileSize();
     return beginPassOver(tileSize);
 }
 

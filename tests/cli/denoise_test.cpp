@@ -60,7 +60,8 @@ TEST_F(Denoised, PicturesKeepTheirSamplesAndAllData) {
     EXPECT_EQ(attributeText(folder / "data.exr", "denoised"), "none");
 }
 
-// The user's own layers do not look through, and the denoiser's do, on half as many samples, at most eight, of a seed of their own.
+// The user's own layers do not look through, and the denoiser's do, on half as many samples, at most eight, of a seed
+// of their own.
 TEST_F(Denoised, DataLookThrough) {
     const std::string mirrors =
         "render spheres --integrator path --width 32 --height 24 --quiet --device cpu";

@@ -65,8 +65,9 @@ TEST(Denoiser, LeavesPixelsWithoutNoiseAsTheyAre) {
         for (int x = 47; x < 50; ++x)
             for (int channel = 0; channel < 3; ++channel) {
                 const float truth = noisy.truth[static_cast<std::size_t>(y * 96 + x)][channel];
-                if (x == 48)
+                if (x == 48) {
                     ASSERT_FLOAT_EQ(image.at(x, y)[channel], truth);
+                }
                 ASSERT_NEAR(image.at(x, y)[channel], truth, 5e-3f);
             }
 }
