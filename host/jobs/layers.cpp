@@ -107,8 +107,8 @@ std::size_t viewsOfOneRender(std::span<const PictureView> views) {
 }
 
 /// The films of albedo, normal and depth, of one render, as that has them: see layout::viewFeatures.
-Film joined(std::vector<Film> films) {
-    Film film = std::move(films[0]);
+Film joined(std::span<const Film> films) {
+    Film film = films[0];
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         layout::FilmPixel &pixel = film.pixels[i];
         pixel.sumOfSquares = films[1].pixels[i].sum;
@@ -193,15 +193,13 @@ std::vector<ViewFilm> renderViews(Backend &backend, const PreparedScene &scene,
             isFinished = finishedWork(found[0], squares, settings.samplesPerPixel).isComplete;
         }
         if (!isFinished && !observer.wantsStop() && !limit.isReached()) {
-            Film film = settings.areFeaturesShown ? joined(std::move(found)) : std::move(found[0]);
-            film =
-                unlessFailed(render(backend, scene.packed, settings, std::move(film), observer, task)).film;
+            const bool areSeveral = settings.areFeaturesShown;
+            BackendResult result = unlessFailed(render(
+                backend, scene.packed, settings, areSeveral ? joined(found) : found[0], observer, task));
             if (view.view == Integrator::Depth && isOfCentres(view.view, settings.areLayersThrough))
-                flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr, film);
-            if (settings.areFeaturesShown)
-                found = parted(film);
-            else
-                found[0] = std::move(film);
+                flattenDepths(scene, films.size() < begun.size() ? &begun[films.size()] : nullptr,
+                              result.film);
+            found = areSeveral ? parted(result.film) : std::vector{std::move(result.film)};
         }
         for (Film &film : found) {
             const PictureView &of = views[films.size()];

@@ -78,10 +78,12 @@ float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance, vec3 
 }
 
 // Whether a pixel has no noise: its mean has a standard deviation below a thousandth of it, and is not below that of
-// the pixels around it, as where all samples have missed a light.
+// the pixels around it, as where all samples have missed a light; unless these are so bright that they are the edge of
+// a lamp.
 bool isCertain(vec3 colour, vec3 variance, vec3 around) {
     vec3 allowed = colour * colour * 1e-6;
     vec3 least = around * 0.999;
-    return variance.x < allowed.x && variance.y < allowed.y && variance.z < allowed.z && colour.x >= least.x &&
-           colour.y >= least.y && colour.z >= least.z;
+    bool isDarker = colour.x < least.x || colour.y < least.y || colour.z < least.z;
+    bool isBesideLamp = luminance(colour) * 64.0 < luminance(around);
+    return variance.x < allowed.x && variance.y < allowed.y && variance.z < allowed.z && (!isDarker || isBesideLamp);
 }
