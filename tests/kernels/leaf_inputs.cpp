@@ -265,7 +265,7 @@ const std::vector<InputRow> inputRows{
      "float metal, float metallic, float plastic, float transmission, float clearcoat, float opacity, "
      "float alphaCutoff, float clearcoatNormalStrength, float dielectricWeight, float normalReflectance, "
      "float anisotropy, float white, float grazing, float normal, float power, float energy, float average, "
-     "float wide, float factor, float diffuseTransmission, float pdf, float areaPdf, float probability, "
+     "float factor, float diffuseTransmission, float pdf, float areaPdf, float probability, "
      "float emitterPdf",
      by(share)},
     {"float energyPlace.position",
