@@ -145,11 +145,11 @@ std::optional<Image> denoised(Backend &backend, const Film &film, const std::vec
 }
 
 std::uint64_t denoiserBytes(const Crop &crop) {
-    constexpr std::uint64_t tilePixels = 570 * 570; // of a tile of the denoiser ...
-    constexpr std::uint64_t bytesInTile = 540;      // ... and for each of them
+    constexpr std::uint64_t tileSide = denoiserTileSide + 2 * layout::denoiserMargin;
+    constexpr std::uint64_t bytesInTile = 540; // of the denoiser, for each pixel
     const std::uint64_t pixels = pixelCountOf(crop);
     return pixels * (sizeof(layout::NoisyPixel) + sizeof(glm::vec3)) +
-           std::min(pixels, tilePixels) * bytesInTile;
+           std::min(pixels, tileSide * tileSide) * bytesInTile;
 }
 
 std::uint64_t denoisingBytes(const RenderSettings &settings, const Crop &crop, unsigned copies) {
