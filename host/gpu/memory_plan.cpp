@@ -56,6 +56,14 @@ std::uint32_t fitSamplesInFlight(int most, std::uint32_t samples) {
     return inFlight;
 }
 
+/// The minimum over the pixels of the film that the job begins with.
+std::uint32_t fewestSamples(const Job &job) {
+    std::uint32_t fewest = job.film.empty() ? 0 : job.sampleEnd;
+    for (const layout::FilmPixel &pixel : job.film)
+        fewest = std::min(fewest, pixel.sampleCount);
+    return fewest;
+}
+
 /// Of a path that waits.
 std::uint64_t lightBytesOfPath(const LightPlanes &planes) {
     return planes.count() == 0 ? 0 : (layout::lightStateWords + 3 * planes.groups) * sizeof(std::uint32_t);
@@ -165,7 +173,9 @@ JobPlan planJob(const Job &job, const RenderConfig &config, const DeviceInfo &de
     planned.layout = FilmLayout(job.crop, job.film, job.sampleEnd);
     const std::uint64_t filmPixels = planned.layout.pixelCount();
     planned.exchangesByBroadcast = isExchanging && device.hasSlowShuffles.value_or(false);
-    planned.samplesInFlight = fitSamplesInFlight(config.samplesInFlight, job.sampleEnd - job.sampleBegin);
+    planned.fewestSamples = fewestSamples(job);
+    planned.samplesInFlight =
+        fitSamplesInFlight(config.samplesInFlight, job.sampleEnd - job.sampleBegin - planned.fewestSamples);
     // At most one subtree waits per level. Powers of two keep the number of different kernels small.
     planned.stackSize = std::bit_ceil(std::max(static_cast<std::uint32_t>(job.scene.treeDepth), 8u));
     // A direct kernel drops unfinished samples and repeats them, so they would be counted and traced twice.

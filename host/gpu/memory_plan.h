@@ -31,6 +31,7 @@ struct WaitingPlan {
 
 /// The tiles and buffers of a job.
 struct JobPlan {
+    std::uint32_t fewestSamples = 0; ///< minimum over the pixels of the film that the job begins with
     std::uint32_t samplesInFlight = 1;
     std::uint32_t stackSize = 0; ///< entries for each ray
     /// Dispatches end with whole samples; a resumable helper kernel does samples that are too long.

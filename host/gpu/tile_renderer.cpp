@@ -139,10 +139,6 @@ TileRenderer::TileRenderer(Device &device, PipelineCache &pipelines, const Scene
     uploadFilm();
     for (const layout::FilmPixel &pixel : job.film)
         samplesInFilm_ += std::min(pixel.sampleCount, job.sampleEnd); // some may have more
-    std::uint32_t fewest = job.film.empty() ? 0 : job.sampleEnd;
-    for (const layout::FilmPixel &pixel : job.film)
-        fewest = std::min(fewest, pixel.sampleCount);
-    fewestInFilm_ = fewest;
     dispatch_.cropX = static_cast<std::uint32_t>(job.crop.x0);
     dispatch_.cropY = static_cast<std::uint32_t>(job.crop.y0);
     dispatch_.filmWidth = plan.layout.width();
@@ -242,7 +238,7 @@ TileTotals TileRenderer::run(const std::function<void(double)> &onProgress, Time
                              const std::function<void(const RayCounts &)> &onPause) {
     Run run{onProgress, timeline, shouldStop, onPause, samplesInFilm_, {}};
     // Passes over the whole image: a render that is stopped early has samples everywhere.
-    for (std::uint32_t begin = job_.sampleBegin + fewestInFilm_;
+    for (std::uint32_t begin = job_.sampleBegin + plan_.fewestSamples;
          begin < job_.sampleEnd && !run.totals.isStopped;) {
         const std::uint32_t end = begin + std::min(samplesInPass, job_.sampleEnd - begin);
         std::vector<WorkItem> waiting = cutFilm(begin);

@@ -156,7 +156,6 @@ class TileRenderer {
     std::uint32_t addingGroupCount_ = 0;       ///< of a slot for each pixel
     std::uint32_t traceEventCount_ = 0;
     std::uint64_t samplesInFilm_ = 0; ///< of all pixels, before run
-    std::uint32_t fewestInFilm_ = 0;  ///< minimum over pixels, before run
     DispatchSizer sizer_;
     double lateBuildSeconds_ = 0.0;
     std::optional<Program> direct_; ///< drops what is unfinished at its end

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace hyalite::core::gpu {
 namespace {
@@ -131,6 +132,20 @@ TEST(MemoryPlan, KernelsThatEndWithSamplesHaveASmallHelper) {
     EXPECT_EQ(plan.maxHelperPixels, 4096u);
     EXPECT_EQ(plan.helperWaiting.paths.sizeBytes, 4096 * 8 * sizeof(layout::PathRecord));
     EXPECT_EQ(plan.helperWaiting.pending.use, BufferUse::Texels);
+}
+
+TEST(MemoryPlan, SlotsAreForSamplesThatAreMissing) {
+    const PackedScene scene = sceneOf(1000);
+    const RenderConfig skip = completed({.kernel = findKernel("skip-list")}, device());
+    std::vector<layout::FilmPixel> film(16 * 16);
+    Job job = jobOf(scene, 16);
+    job.film = film;
+    EXPECT_EQ(planJob(job, skip, device()).samplesInFlight, 8u);
+    for (layout::FilmPixel &pixel : film)
+        pixel.sampleCount = job.sampleEnd - 4;
+    EXPECT_EQ(planJob(job, skip, device()).samplesInFlight, 4u);
+    film[3].sampleCount = 0;
+    EXPECT_EQ(planJob(job, skip, device()).samplesInFlight, 8u) << "a pixel has none";
 }
 
 TEST(MemoryPlan, TilesAreSmallerWhereSlotsWouldTakeTooMuch) {
