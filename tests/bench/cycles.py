@@ -1,23 +1,25 @@
 #!/usr/bin/env python3
 """Compares the time until a picture is clean with that of Cycles, Blender's path tracer.
 
-    tests/bench/cycles.py HYALITE FOLDER [--quick]
+    tests/bench/cycles.py HYALITE FOLDER [SCENE...] [--until noise,.08,.05] [--quick]
 
-Needs Debian's packages blender, python3-numpy and mesa-vulkan-drivers. FOLDER keeps what is made. --quick shows that
-the script works: its pictures are small and each is timed once.
+Needs Debian's packages blender, python3-numpy and mesa-vulkan-drivers. FOLDER keeps what is made. SCENE is cornell or
+metals. --quick shows that the script works: its pictures are small and each is timed once.
 
 1. Both programs render two scenes from the same files: the Cornell box, and white rough metals. The script fails unless
    the pictures have the same mean, as a whole and in 16 regions.
 2. Two renders with different seeds differ by their noise alone. Half of the squared difference is the variance of a
    pixel. The noise is the square root of the mean variance, without the noisiest 0.1 % of the pixels, divided by the
-   mean of the picture. Samples are doubled until the noise is below 5 %. The last two counts say how many it takes.
+   mean of the picture. Samples are doubled until the noise is below 5 % (--until noise). The last two counts say how
+   many it takes.
 3. User seconds of a process with so many samples, less those of a process with one sample: the median of three turns,
    in which the programs follow each other. Step 2 has run the same commands, so that kernels are in the driver's cache.
    Between the last two counts, the logarithms of samples and seconds are taken for a line.
 4. The same until the mean HDR-FLIP of a picture, against 1,024 samples of the same program by another seed, is below
-   0.08 and 0.05; beside them Cycles with adaptive samples, by thresholds of noise of 1/1, 1/2, 1/4 ... in place of
-   counts, and ours denoised.
+   those numbers of --until; beside them Cycles with adaptive samples, by thresholds of noise of 1/1, 1/2, 1/4 ... in
+   place of counts, and ours denoised.
 """
+import argparse
 import collections
 import datetime
 import functools
@@ -39,7 +41,6 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 CORNELL = os.path.join(HERE, "..", "..", "assets", "scenes", "cornell.json")
 NOISE = 0.05  # standard deviation of a pixel, of the mean of all
 NOISIEST = 0.001  # share of the pixels that is left out
-FLIPS = (0.08, 0.05)
 MAX_SAMPLES = 4096
 TRUE_SAMPLES = 1024
 MEANS_AGREE, REGIONS_AGREE = 0.01, 0.02  # relative
@@ -203,11 +204,15 @@ def print_versions(hyalite):
 
 
 def main():
-    arguments = [argument for argument in sys.argv[1:] if argument != "--quick"]
-    if len(arguments) != 2:
-        sys.exit(__doc__)
-    is_quick = "--quick" in sys.argv
-    hyalite, folder = (os.path.abspath(argument) for argument in arguments)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("hyalite", metavar="HYALITE", type=os.path.abspath)
+    parser.add_argument("folder", metavar="FOLDER", type=os.path.abspath)
+    parser.add_argument("scenes", nargs="*", default=["cornell", "metals"], metavar="SCENE")
+    parser.add_argument("--until", default="noise,.08,.05")
+    parser.add_argument("--quick", action="store_true")
+    arguments = parser.parse_args()
+    hyalite, folder, is_quick = arguments.hyalite, arguments.folder, arguments.quick
+    wanted = arguments.until.split(",")
     if not os.access(hyalite, os.X_OK):
         fail(hyalite + " is not a program")
     if not shutil.which("blender"):
@@ -239,6 +244,9 @@ def main():
     denoised = program("Hyalite, lavapipe, denoised", "denoised", run_on("llvmpipe", "--denoise"), lavapipe)
     cornell_size, metals_size = ((96, 96), (128, 80)) if is_quick else ((256, 256), (320, 200))
     scenes = [Scene("cornell", CORNELL, 0.001, *cornell_size), Scene("metals", write_metals(folder), 1, *metals_size)]
+    scenes = [scene for scene in scenes if scene.name in arguments.scenes]
+    if not scenes:
+        fail("SCENE is cornell or metals")
     turns = 1 if is_quick else 3
     print_versions(hyalite)
     print("\n| scene | mean, of Cycles' | of regions |\n|---|---|---|")
@@ -247,12 +255,13 @@ def main():
     print("\n| scene | until | program | samples | user s with one sample | user s more | times as fast |")
     print("|---|---|---|---|---|---|---|")
     for scene in scenes:
-        needed = {each: each.samples_needed(scene, each.noise, NOISE) for each in (cycles, lavapipe, twin)}
-        race("noise 5 %", scene, needed, turns)
-    for scene in scenes:
-        for each in (cycles, lavapipe):
+        if "noise" in wanted:
+            needed = {each: each.samples_needed(scene, each.noise, NOISE) for each in (cycles, lavapipe, twin)}
+            race("noise 5 %", scene, needed, turns)
+        flips = [float(flip) for flip in wanted if flip != "noise"]
+        for each in (cycles, lavapipe) if flips else ():
             each.keep_truth(scene)
-        for flip in FLIPS:
+        for flip in flips:
             needed = {each: each.samples_needed(scene, functools.partial(each.flip, hyalite), flip)
                       for each in (cycles, adaptive, lavapipe, denoised)}
             race("FLIP %g" % flip, scene, needed, turns)
