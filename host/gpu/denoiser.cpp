@@ -21,7 +21,6 @@ using layout::denoiserBindingCount;
 
 constexpr std::uint32_t passGroupSize = 64;
 constexpr std::size_t bytesOfTexel = 16;
-constexpr int tileMargin = layout::denoiserMargin;
 
 constexpr std::array<const char *, denoiserBindingCount> bufferNames{
     "the noisy tile",    "the halves of the tile", "the variances of the tile", "the levels of the tile",
@@ -51,7 +50,7 @@ std::array<std::size_t, denoiserBindingCount> texelsOf(int width, int height) {
             pixels * layout::splitRows,
             pixels,
             (pixels + levelPixels(width, height, layout::fitCoarse)) * layout::levelRows,
-            anchors * layout::modelRows,
+            anchors * 2 * layout::modelRows,
             pixels * layout::estimateCount,
             pixels,
             pixels};
@@ -67,7 +66,7 @@ int tileSideFor(const DeviceInfo &device) {
                     Remedy::ReferenceInstead);
     int side = denoiserTileSide; // Vulkan guarantees 24
     const auto isTooLarge = [&](int own) {
-        const int whole = own + 2 * tileMargin;
+        const int whole = own + 2 * layout::denoiserMargin;
         return std::ranges::max(texelsOf(whole, whole)) > device.maxTexelBufferElements;
     };
     while (side > layout::tileAlignment && isTooLarge(side))
@@ -132,7 +131,7 @@ class TileDenoiser {
 
 Image denoise(Device &device, PipelineCache &pipelines, bool isDivisionExact, const NoisyPicture &picture) {
     const int side = tileSideFor(device.info());
-    const auto most = [side](int size) { return std::min(size, side + 2 * tileMargin); };
+    const auto most = [side](int size) { return std::min(size, side + 2 * layout::denoiserMargin); };
     TileDenoiser tiles(device, pipelines, isDivisionExact, most(picture.width), most(picture.height));
     return denoisedByTiles(picture, side, [&](const NoisyPicture &tile) { return tiles.denoised(tile); });
 }

@@ -316,7 +316,6 @@ class TileDenoiser {
     /// What the models of the four nearest anchors say of the pixel, for both halves: means by how near and how alike
     /// they are, and a little of its own colour.
     [[nodiscard]] std::array<vec3, 2> halvesBy(int kind, int x, int y) const {
-        constexpr float ownWeight = 0.0009765625f;
         const LevelPixel &pixel = fine_[at(x, y)];
         const glm::vec2 factors = pixel.factors();
         const Fit &fit = fits_[static_cast<std::size_t>(kind)];
@@ -326,8 +325,8 @@ class TileDenoiser {
         const float inverse = leaves::divide(1.0f, static_cast<float>(step));
         const float beyondX = static_cast<float>(alongX % step) * inverse;
         const float beyondY = static_cast<float>(alongY % step) * inverse;
-        glm::vec2 weights(ownWeight);
-        std::array<vec3, 2> halves{pixel.first * ownWeight, pixel.second * ownWeight};
+        glm::vec2 weights(layout::ownWeight);
+        std::array<vec3, 2> halves{pixel.first * layout::ownWeight, pixel.second * layout::ownWeight};
         for (int i = 0; i < 4; ++i) {
             const int sideX = i & 1;
             const int sideY = i >> 1;

@@ -37,6 +37,9 @@ const int fitCount = 3;
 const int estimateNoisy = fitCount;
 const int estimateCount = fitCount + 1;
 
+// The weight of a pixel's own colour beside what the models of anchors say, which have at most 1 in all.
+const float ownWeight = 0.0009765625f;
+
 // Side of the coarse level's blocks, in pixels.
 const int blockSide = 3;
 
@@ -81,7 +84,7 @@ const uint bindingNoisy = 0u;     // a NoisyPixel
 const uint bindingSplit = 1u;     // the means of both halves; their variance; the same, by their difference
 const uint bindingVariances = 2u; // of the mean of all samples
 const uint bindingLevels = 3u;    // of the fine level, then of the coarse one
-const uint bindingModels = 4u;    // of each fit's anchors, for both halves: a coefficient for each feature
+const uint bindingModels = 4u;    // of each fit's anchors, for both halves
 const uint bindingEstimates = 5u; // each with its error
 const uint bindingChoices = 6u;   // the estimate's index
 const uint bindingDenoised = 7u;  // the colour
@@ -90,24 +93,26 @@ const int noisyRows = 5;
 const int splitRows = 4;
 
 // Rows of a level's pixel: means of the halves, the first with the first samples' share, and their variance; the same
-// of 3 x 3 pixels around; albedo, with depth; normal. Of a block, the first three are those of the pixels around its
-// middle.
+// of 3 x 3 pixels around, each with a number of the normal; albedo, with depth. Of a block, the first three are those of
+// the pixels around its middle.
 const int levelFirst = 0;
 const int levelSecond = 1;
 const int levelVariance = 2;
 const int levelGuides = 3; // first, second, variance
 const int levelAlbedo = 6;
-const int levelNormal = 7;
-const int levelRows = 8;
+const int levelRows = 7;
 
 // The regression: a constant, albedo, normal and depth, of which products are kept in the order (0,0) (1,0) (1,1) (2,0).
 const int featureCount = 8;
 const int productCount = 36;
-const int modelRows = 2 * featureCount;
+
+// Rows of a half's model: the colours by which it multiplies the first six features, each with a number of the two others.
+const int modelRows = 6;
 
 #ifdef __cplusplus
 static_assert(sizeof(NoisyPixel) == 80 && offsetof(NoisyPixel, normal) == 64);
 static_assert(productCount == featureCount * (featureCount + 1) / 2);
+static_assert(4 * modelRows == 3 * featureCount);
 static_assert(tileAlignment % anchorStep(fitWide) == 0 && tileAlignment % anchorStep(fitCoarse) == 0);
 static_assert(denoiserMargin % tileAlignment == 0);
 } // namespace hyalite::core::layout

@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"
+#include "shaders/post/level.glsl"
 
 void main() {
     readTileSize();
@@ -15,19 +16,19 @@ void main() {
     vec3 normal = vec3(0.0);
     [[unroll]] for (int dy = -1; dy <= 1; ++dy)
         [[unroll]] for (int dx = -1; dx <= 1; ++dx) {
-            int other = placeOf(middle + ivec2(dx, dy)) * levelRows;
-            share += loadNumber(levelTexels, other + levelFirst);
-            depth += loadNumber(levelTexels, other + levelAlbedo);
-            albedo += loadVector(levelTexels, other + levelAlbedo);
-            normal += loadVector(levelTexels, other + levelNormal);
+            LevelPixel other = loadLevel(placeOf(middle + ivec2(dx, dy)) * levelRows);
+            share += other.firstShare;
+            depth += other.depth;
+            albedo += other.albedo;
+            normal += other.normal;
         }
-    int level = placeInLevel(own, size, fitCoarse);
-    int fine = placeOf(middle) * levelRows + levelGuides;
-    [[unroll]] for (int i = 0; i < 3; ++i) {
-        vec3 mean = loadVector(levelTexels, fine + i);
-        storeWithNumber(levelTexels, level + levelFirst + i, mean, share * (1.0 / 9.0));
-        storeVector(levelTexels, level + levelGuides + i, mean);
-    }
-    storeWithNumber(levelTexels, level + levelAlbedo, albedo * (1.0 / 9.0), depth * (1.0 / 9.0));
-    storeVector(levelTexels, level + levelNormal, normal * (1.0 / 9.0));
+    LevelPixel block = loadLevel(placeOf(middle) * levelRows);
+    block.first = block.firstGuide;
+    block.second = block.secondGuide;
+    block.variance = block.guideVariance;
+    block.firstShare = share * (1.0 / 9.0);
+    block.albedo = albedo * (1.0 / 9.0);
+    block.normal = normal * (1.0 / 9.0);
+    block.depth = depth * (1.0 / 9.0);
+    storeLevel(placeInLevel(own, size, fitCoarse), block);
 }

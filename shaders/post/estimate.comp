@@ -6,13 +6,16 @@
 #include "shaders/post/passes.glsl"
 #include "shaders/post/level.glsl"
 
-const float ownWeight = 0.0009765625;
-
 // A model's colour for the features. Radiance is not negative.
 vec3 colourBy(int model, const float features[featureCount]) {
-    vec3 colour = loadVector(modelTexels, model);
-    [[unroll]] for (int m = 1; m < featureCount; ++m)
-        colour += features[m] * loadVector(modelTexels, model + m);
+    vec4 rows[modelRows];
+    [[unroll]] for (int m = 0; m < modelRows; ++m)
+        rows[m] = loadTexel(modelTexels, model + m);
+    vec3 colour = rows[0].xyz;
+    [[unroll]] for (int m = 1; m < modelRows; ++m)
+        colour += features[m] * rows[m].xyz;
+    [[unroll]] for (int m = 0; m < modelRows; m += 3)
+        colour += features[modelRows + m / 3] * vec3(rows[m].w, rows[m + 1].w, rows[m + 2].w);
     return greater(colour, vec3(0.0));
 }
 
@@ -28,7 +31,7 @@ void main() {
     vec3 wide;
     for (int fit = 0; fit < fitCount; ++fit) {
         ivec2 size = levelSizeOf(fit);
-        ivec2 anchors = ivec2(anchorCount(size.x), anchorCount(size.y));
+        ivec2 anchors = anchorsOf(size);
         int step = anchorStep(fit);
         ivec2 along = own - firstAnchor(fit) + step; // from the anchor before the tile
         ivec2 before = along / step - 1;
@@ -39,8 +42,7 @@ void main() {
         for (int i = 0; i < 4; ++i) {
             ivec2 side = ivec2(i & 1, i >> 1);
             ivec2 anchor = clamp(before + side, ivec2(0), anchors - 1);
-            ivec2 anchorPixel = min(ivec2(placeOfAnchor(anchor.x), placeOfAnchor(anchor.y)), size - 1);
-            LevelPixel other = loadLevel(placeInLevel(anchorPixel, size, fit));
+            LevelPixel other = loadLevel(placeInLevel(pixelOfAnchor(anchor, size), size, fit));
             float nearness = (side.x == 1 ? beyond.x : 1.0 - beyond.x) * (side.y == 1 ? beyond.y : 1.0 - beyond.y);
             vec2 distances = sharpnessOf(fit) * distancesOf(pixel, other, factors);
             vec2 weight = nearness * vec2(weightOf(distances.y), weightOf(distances.x));
@@ -48,7 +50,7 @@ void main() {
             int model = placeOfModel(anchor, anchors, fit);
             weights += weight;
             first += weight.x * colourBy(model, features);
-            second += weight.y * colourBy(model + featureCount, features);
+            second += weight.y * colourBy(model + modelRows, features);
         }
         first = first * divide(1.0, weights.x);
         second = second * divide(1.0, weights.y);

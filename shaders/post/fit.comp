@@ -8,18 +8,18 @@
 #include "shaders/post/moments.glsl"
 
 void store(int place, const Moments solved) {
-    [[unroll]] for (int m = 0; m < featureCount; ++m)
-        storeVector(modelTexels, place + m, solved.sums[m]);
+    [[unroll]] for (int m = 0; m < modelRows; ++m)
+        storeWithNumber(modelTexels, place + m, solved.sums[m], solved.sums[modelRows + m / 3][m % 3]);
 }
 
 void main() {
     readTileSize();
     int fit = int(dispatchConstants.fit);
     ivec2 size = levelSizeOf(fit);
-    ivec2 anchors = ivec2(anchorCount(size.x), anchorCount(size.y));
+    ivec2 anchors = anchorsOf(size);
     if (!beginPassOver(anchors))
         return;
-    ivec2 pixel = min(ivec2(placeOfAnchor(own.x), placeOfAnchor(own.y)), size - 1);
+    ivec2 pixel = pixelOfAnchor(own, size);
     LevelPixel anchor = loadLevel(placeInLevel(pixel, size, fit));
     vec2 factors = factorsOf(anchor);
     int radius = fitRadius(fit);
@@ -41,5 +41,5 @@ void main() {
     solve(seconds);
     int place = placeOfModel(own, anchors, fit);
     store(place, firsts);
-    store(place + featureCount, seconds);
+    store(place + modelRows, seconds);
 }

@@ -3,6 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/post/passes.glsl"
+#include "shaders/post/level.glsl"
 
 void main() {
     if (!beginPass())
@@ -18,13 +19,16 @@ void main() {
             variance += loadVector(varianceTexels, other);
         }
     int place = placeOf(own);
-    int level = place * levelRows;
-    storeWithNumber(levelTexels, level + levelFirst, loadVector(splitTexels, place * splitRows), noisyNumber(place, 0));
-    storeVector(levelTexels, level + levelSecond, loadVector(splitTexels, place * splitRows + 1));
-    storeVector(levelTexels, level + levelVariance, loadVector(varianceTexels, place));
-    storeVector(levelTexels, level + levelGuides, first * (1.0 / 9.0));
-    storeVector(levelTexels, level + levelGuides + 1, second * (1.0 / 9.0));
-    storeVector(levelTexels, level + levelGuides + 2, variance * (1.0 / 81.0));
-    storeWithNumber(levelTexels, level + levelAlbedo, noisyVector(place, 3), noisyNumber(place, 1));
-    storeVector(levelTexels, level + levelNormal, noisyVector(place, 4));
+    LevelPixel pixel;
+    pixel.firstShare = noisyNumber(place, 0);
+    pixel.first = loadVector(splitTexels, place * splitRows);
+    pixel.second = loadVector(splitTexels, place * splitRows + 1);
+    pixel.variance = loadVector(varianceTexels, place);
+    pixel.firstGuide = first * (1.0 / 9.0);
+    pixel.secondGuide = second * (1.0 / 9.0);
+    pixel.guideVariance = variance * (1.0 / 81.0);
+    pixel.albedo = noisyVector(place, 3);
+    pixel.normal = noisyVector(place, 4);
+    pixel.depth = noisyNumber(place, 1);
+    storeLevel(place * levelRows, pixel);
 }

@@ -23,8 +23,19 @@ LevelPixel loadLevel(int place) {
     pixel.guideVariance = loadVector(levelTexels, place + levelGuides + 2);
     pixel.albedo = loadVector(levelTexels, place + levelAlbedo);
     pixel.depth = loadNumber(levelTexels, place + levelAlbedo);
-    pixel.normal = loadVector(levelTexels, place + levelNormal);
+    [[unroll]] for (int i = 0; i < 3; ++i)
+        pixel.normal[i] = loadNumber(levelTexels, place + levelGuides + i);
     return pixel;
+}
+
+void storeLevel(int place, const LevelPixel pixel) {
+    storeWithNumber(levelTexels, place + levelFirst, pixel.first, pixel.firstShare);
+    storeVector(levelTexels, place + levelSecond, pixel.second);
+    storeVector(levelTexels, place + levelVariance, pixel.variance);
+    storeWithNumber(levelTexels, place + levelGuides, pixel.firstGuide, pixel.normal.x);
+    storeWithNumber(levelTexels, place + levelGuides + 1, pixel.secondGuide, pixel.normal.y);
+    storeWithNumber(levelTexels, place + levelGuides + 2, pixel.guideVariance, pixel.normal.z);
+    storeWithNumber(levelTexels, place + levelAlbedo, pixel.albedo, pixel.depth);
 }
 
 // The variance of a half's mean is that of all samples' over its share: the factors of both halves.

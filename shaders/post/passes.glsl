@@ -56,11 +56,18 @@ int placeInLevel(ivec2 pixel, ivec2 size, int fit) {
     return ((fit == fitCoarse ? tileSize.x * tileSize.y : 0) + pixel.y * size.x + pixel.x) * levelRows;
 }
 
-// Of an anchor, in texels.
+ivec2 anchorsOf(ivec2 levelSize) { return ivec2(anchorCount(levelSize.x), anchorCount(levelSize.y)); }
+
+// That of the level whose surroundings the anchor's model fits.
+ivec2 pixelOfAnchor(ivec2 anchor, ivec2 levelSize) {
+    return min(ivec2(placeOfAnchor(anchor.x), placeOfAnchor(anchor.y)), levelSize - 1);
+}
+
+// Of the model of an anchor's first half, in texels; that of the second one is `modelRows` behind.
 int placeOfModel(ivec2 anchor, ivec2 anchors, int fit) {
-    ivec2 fine = levelSizeOf(fitWide);
-    int before = fit * anchorCount(fine.x) * anchorCount(fine.y);
-    return (before + anchor.y * anchors.x + anchor.x) * modelRows;
+    ivec2 fine = anchorsOf(levelSizeOf(fitWide));
+    int before = fit * fine.x * fine.y;
+    return (before + anchor.y * anchors.x + anchor.x) * 2 * modelRows;
 }
 
 vec3 noisyVector(int place, int row) {
@@ -68,6 +75,7 @@ vec3 noisyVector(int place, int row) {
 }
 float noisyNumber(int place, int row) { return uintBitsToFloat(imageLoad(noisyTexels, place * noisyRows + row).w); }
 
+#define loadTexel(texels, place) uintBitsToFloat(imageLoad(texels, place))
 #define loadVector(texels, place) uintBitsToFloat(imageLoad(texels, place).xyz)
 #define loadNumber(texels, place) uintBitsToFloat(imageLoad(texels, place).w)
 #define storeVector(texels, place, v) imageStore(texels, place, uvec4(floatBitsToUint(v), 0u))
