@@ -89,7 +89,7 @@ class TileDenoiser {
         constants[layout::constantWorkgroupSize] = passGroupSize;
         constants[layout::constantExactDivision] = isDivisionExact;
         for (const char *pass :
-             {"Split", "Variance", "Guides", "Coarse", "Fit", "Estimate", "Choice", "Blend"}) {
+             {"Split", "Variance", "Guides", "Coarse", "Fit", "Estimate", "Choice", "Counts", "Blend"}) {
             const std::string name = std::string("denoiser") + pass;
             kernels_.try_emplace(pass, device,
                                  pipelines.get(device, name, embeddedKernel(name), constants, uses), bound);
@@ -116,6 +116,7 @@ class TileDenoiser {
         }
         run("Estimate", pixelCount);
         run("Choice", pixelCount);
+        run("Counts", pixelCount);
         run("Blend", pixelCount);
         std::vector<glm::vec4> texels(pixelCount);
         buffers_[layout::bindingDenoised].download(std::as_writable_bytes(std::span(texels)));

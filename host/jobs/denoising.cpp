@@ -146,7 +146,7 @@ std::optional<Image> denoised(Backend &backend, const Film &film, const std::vec
 
 std::uint64_t denoiserBytes(const Crop &crop) {
     constexpr std::uint64_t tileSide = denoiserTileSide + 2 * layout::denoiserMargin;
-    constexpr std::uint64_t bytesInTile = 540; // of the denoiser, for each pixel
+    constexpr std::uint64_t bytesInTile = 556; // of the denoiser, for each pixel
     const std::uint64_t pixels = pixelCountOf(crop);
     return pixels * (sizeof(layout::NoisyPixel) + sizeof(glm::vec3)) +
            std::min(pixels, tileSide * tileSide) * bytesInTile;

@@ -142,6 +142,8 @@ class TileDenoiser {
         forEach([this](int x, int y) { estimate(x, y); });
         choices_.resize(noisy_.size());
         forEach([this](int x, int y) { choose(x, y); });
+        counts_.resize(noisy_.size());
+        forEach([this](int x, int y) { count(x, y); });
         std::vector<vec3> colours(noisy_.size());
         forEach([&](int x, int y) { colours[at(x, y)] = blended(x, y); });
         return colours;
@@ -351,21 +353,24 @@ class TileDenoiser {
         const std::size_t own = at(x, y);
         const LevelPixel &pixel = fine_[own];
         const float secondShare = 1.0f - pixel.firstShare;
+        const vec3 noisy = pixel.first * pixel.firstShare + pixel.second * secondShare;
+        const float limit =
+            leaves::errorLimit(leaves::luminance(noisy), leaves::luminance(split_[own].variance));
         std::array<vec3, estimateKinds> &estimates = estimates_[own];
         for (int kind = 0; kind < layout::fitCount; ++kind) {
             const auto [first, second] = halvesBy(kind, x, y);
             const auto i = static_cast<std::size_t>(kind);
             estimates[i] = first * pixel.firstShare + second * secondShare;
             const vec3 difference = first - second;
-            errors_[own][i] = leaves::relativeError(
-                estimates[i], pixel.first, pixel.second,
-                difference * difference * (pixel.firstShare * secondShare), estimates[layout::fitWide]);
+            errors_[own][i] =
+                leaves::relativeError(estimates[i], pixel.first, pixel.second,
+                                      difference * difference * (pixel.firstShare * secondShare),
+                                      estimates[layout::fitWide], limit);
         }
         // Of the noisy colour itself, whose error and variance are one: the first term is minus that.
-        const vec3 noisy = pixel.first * pixel.firstShare + pixel.second * secondShare;
         estimates[layout::estimateNoisy] = noisy;
         errors_[own][layout::estimateNoisy] = leaves::relativeError(
-            noisy, noisy, pixel.second, split_[own].squares * 0.5f, estimates[layout::fitWide]);
+            noisy, noisy, pixel.second, split_[own].squares * 0.5f, estimates[layout::fitWide], limit);
     }
 
     /// The estimate with the least error in the neighbourhood, which counts less the further it is.
@@ -380,21 +385,35 @@ class TileDenoiser {
         choices_[at(x, y)] = static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin());
     }
 
-    /// The estimates by the shares of the neighbourhood that has chosen them; pixels without noise stay as they are.
-    [[nodiscard]] vec3 blended(int x, int y) const {
-        std::array<float, estimateKinds> counts{};
+    /// How many pixels of the neighbourhood have chosen each estimate.
+    void count(int x, int y) {
         around(x, y, layout::choiceRadius,
-               [&](std::size_t other, int, int) { counts[choices_[other]] += 1.0f; });
+               [&](std::size_t other, int, int) { counts_[at(x, y)][choices_[other]] += 1.0f; });
+    }
+
+    /// The estimates by how many of the neighbourhood have chosen them, the noisy colour only where many have; pixels
+    /// without noise stay as they are.
+    [[nodiscard]] vec3 blended(int x, int y) const {
         const std::array<vec3, estimateKinds> &estimates = estimates_[at(x, y)];
         const vec3 &noisy = estimates[layout::estimateNoisy];
         const LevelPixel &pixel = fine_[at(x, y)];
         const vec3 mean = pixel.firstGuide * pixel.firstShare + pixel.secondGuide * (1.0f - pixel.firstShare);
         if (leaves::isCertain(noisy, split_[at(x, y)].variance, mean))
             return noisy;
+        float noisyCount = 0.0f;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                noisyCount += counts_[near(x + layout::spreadRadius * dx, y + layout::spreadRadius * dy)]
+                                     [layout::estimateNoisy];
+        std::array<float, estimateKinds> weights = counts_[at(x, y)];
+        weights[layout::estimateNoisy] *= leaves::noisyFactor(noisyCount);
         vec3 sum(0.0f);
-        for (std::size_t i = 0; i < estimateKinds; ++i)
-            sum += estimates[i] * counts[i];
-        return leaves::greater(sum * (1.0f / 25.0f), vec3(0.0f));
+        float total = 0.0f;
+        for (std::size_t i = 0; i < estimateKinds; ++i) {
+            sum += estimates[i] * weights[i];
+            total += weights[i];
+        }
+        return leaves::greater(sum * leaves::divide(1.0f, total), vec3(0.0f));
     }
 
     const std::vector<NoisyPixel> &noisy_;
@@ -409,6 +428,7 @@ class TileDenoiser {
     std::vector<std::array<vec3, estimateKinds>> estimates_;
     std::vector<std::array<float, estimateKinds>> errors_;
     std::vector<std::size_t> choices_;
+    std::vector<std::array<float, estimateKinds>> counts_;
 };
 
 } // namespace

@@ -9,7 +9,7 @@
 namespace hyalite::core::reference {
 
 /// Of the result: another version gives other colours. Pictures say it.
-inline constexpr std::string_view denoiserName = "hyalite denoiser 2";
+inline constexpr std::string_view denoiserName = "hyalite denoiser 3";
 
 /// The picture without most of its noise. The result depends neither on the number of threads, of which OpenMP chooses 0,
 /// nor on the side of tiles.

@@ -74,10 +74,11 @@ const int varianceRadius = 3;
 const int guideRadius = 1;
 const int errorRadius = 2;
 const int choiceRadius = 2;
+const int spreadRadius = 4;
 
 // Of a tile beyond its own pixels: what the passes above read, and estimates by a coarse fit, whose anchor is less than
 // 6 pixels away, and its neighbours another 4 blocks, of which the last one ends a pixel further.
-const int denoiserMargin = 30;
+const int denoiserMargin = 36;
 
 // Bindings, of texels: rows of 16 bytes, so many for a pixel.
 const uint bindingNoisy = 0u;     // a NoisyPixel
@@ -88,13 +89,14 @@ const uint bindingModels = 4u;    // of each fit's anchors, for both halves
 const uint bindingEstimates = 5u; // each with its error
 const uint bindingChoices = 6u;   // the estimate's index
 const uint bindingDenoised = 7u;  // the colour
-const uint denoiserBindingCount = 8u;
+const uint denoiserBindingCount = 8u; // few devices allow more
+const uint bindingCounts = bindingVariances; // how many neighbours have chosen each estimate, when those are done with
 const int noisyRows = 5;
 const int splitRows = 4;
 
 // Rows of a level's pixel: means of the halves, the first with the first samples' share, and their variance; the same
-// of 3 x 3 pixels around, each with a number of the normal; albedo, with depth. Of a block, the first three are those of
-// the pixels around its middle.
+// of 3 x 3 pixels around, each with a number of the normal; albedo, with depth. Of a block, the first three are those
+// of the pixels around its middle.
 const int levelFirst = 0;
 const int levelSecond = 1;
 const int levelVariance = 2;
@@ -102,11 +104,13 @@ const int levelGuides = 3; // first, second, variance
 const int levelAlbedo = 6;
 const int levelRows = 7;
 
-// The regression: a constant, albedo, normal and depth, of which products are kept in the order (0,0) (1,0) (1,1) (2,0).
+// The regression: a constant, albedo, normal and depth, of which products are kept in the order (0,0) (1,0) (1,1)
+// (2,0).
 const int featureCount = 8;
 const int productCount = 36;
 
-// Rows of a half's model: the colours by which it multiplies the first six features, each with a number of the two others.
+// Rows of a half's model: the colours by which it multiplies the first six features, each with a number of those of the
+// two others.
 const int modelRows = 6;
 
 #ifdef __cplusplus
@@ -115,6 +119,7 @@ static_assert(productCount == featureCount * (featureCount + 1) / 2);
 static_assert(4 * modelRows == 3 * featureCount);
 static_assert(tileAlignment % anchorStep(fitWide) == 0 && tileAlignment % anchorStep(fitCoarse) == 0);
 static_assert(denoiserMargin % tileAlignment == 0);
+static_assert(estimateCount == 4); // a texel's numbers
 } // namespace hyalite::core::layout
 #endif
 #undef HYALITE_INLINE

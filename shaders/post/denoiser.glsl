@@ -68,14 +68,27 @@ float depthDifference(float neighbour, float own) {
     return featureDifference(neighbour, own) * roughInverse(neighbour + own + 1e-9);
 }
 
+// How much a pixel's errors may count, by its luminance and the variance of that: a firefly that is in both halves
+// would choose for all pixels around it, as only a small lamp is to do, of whose mean the samples are sure.
+float errorLimit(float luminance, float variance) {
+    float squared = luminance * luminance;
+    return greater(squared * roughInverse(variance + squared * 1e-6 + 1e-20), 8.0);
+}
+
 // The squared error of an estimate relative to a colour, up to a sum that is the same for all estimates: by the product
 // of what the two halves say, whose noise is independent, and the estimate's variance.
-float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance, vec3 colour) {
+float relativeError(vec3 estimate, vec3 first, vec3 second, vec3 variance, vec3 colour, float limit) {
     vec3 squared = (estimate - first) * (estimate - second) + 2.0 * variance;
     vec3 scale = colour * colour + 0.01;
-    return withoutTiny(squared.x * roughInverse(scale.x) + squared.y * roughInverse(scale.y) +
-                       squared.z * roughInverse(scale.z));
+    return withoutTiny(lesser(squared.x * roughInverse(scale.x) + squared.y * roughInverse(scale.y) +
+                                  squared.z * roughInverse(scale.z),
+                              limit));
 }
+
+// The factor on the share of the noisy colour in a pixel, by how many of the pixels further around have chosen it, some
+// of them counted twice: 40 are the middle between none and all of it. A few alone are those that have all missed rare
+// light, and look as if they had no noise.
+float noisyFactor(float count) { return lesser(greater((count - 20.0) * 0.025, 0.0), 1.0); }
 
 // Whether a pixel has no noise: its mean has a standard deviation below a thousandth of it, and is not below that of
 // the pixels around it, as where all samples have missed a light; unless these are so bright that they are the edge of

@@ -26,6 +26,8 @@ void main() {
     LevelPixel pixel = loadLevel(place * levelRows);
     float firstShare = pixel.firstShare;
     float secondShare = 1.0 - firstShare;
+    vec3 noisy = pixel.first * firstShare + pixel.second * secondShare;
+    float limit = errorLimit(luminance(noisy), luminance(loadVector(splitTexels, place * splitRows + 2)));
     vec2 factors = factorsOf(pixel);
     float features[featureCount];
     vec3 wide;
@@ -60,11 +62,10 @@ void main() {
             wide = estimate;
         storeWithNumber(estimateTexels, place * estimateCount + fit, estimate,
                         relativeError(estimate, pixel.first, pixel.second,
-                                      difference * difference * (firstShare * secondShare), wide));
+                                      difference * difference * (firstShare * secondShare), wide, limit));
     }
     // Of the noisy colour itself: the first term of its error is 0, and the variance is that of the whole.
-    vec3 noisy = pixel.first * firstShare + pixel.second * secondShare;
     vec3 squares = loadVector(splitTexels, place * splitRows + 3);
     storeWithNumber(estimateTexels, place * estimateCount + estimateNoisy, noisy,
-                    relativeError(noisy, noisy, pixel.second, squares * 0.5, wide));
+                    relativeError(noisy, noisy, pixel.second, squares * 0.5, wide, limit));
 }

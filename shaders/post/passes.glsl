@@ -18,6 +18,7 @@ layout(set = 0, binding = bindingLevels, rgba32ui) uniform restrict uimageBuffer
 layout(set = 0, binding = bindingModels, rgba32ui) uniform restrict uimageBuffer modelTexels;
 layout(set = 0, binding = bindingEstimates, rgba32ui) uniform restrict uimageBuffer estimateTexels;
 layout(set = 0, binding = bindingChoices, rgba32ui) uniform restrict uimageBuffer choiceTexels;
+layout(set = 0, binding = bindingCounts, rgba32ui) uniform restrict uimageBuffer countTexels;
 layout(set = 0, binding = bindingDenoised, rgba32ui) uniform restrict writeonly uimageBuffer denoisedTexels;
 
 #include "shaders/math/arithmetic.glsl"

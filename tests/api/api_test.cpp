@@ -103,7 +103,7 @@ TEST(ApiRenderer, DenoisesAndKeepsTheData) {
     EXPECT_TRUE(haveEqualBits(clean.layers()[0].values, noisy.pixels()));
     EXPECT_TRUE(
         haveEqualBits(Renderer("cpu").render(Scene::load("metals"), settings).pixels(), clean.pixels()));
-    EXPECT_NE(clean.provenance().find("\"denoised\": \"hyalite denoiser 2\""), std::string::npos)
+    EXPECT_NE(clean.provenance().find("\"denoised\": \"hyalite denoiser 3\""), std::string::npos)
         << clean.provenance();
     expectError(ErrorKind::Usage, "denoise: found true with 1 sample", [&] {
         static_cast<void>(device().render(Scene::load("metals"), Settings(settings).set("spp", 1)));

@@ -56,7 +56,7 @@ TEST_F(Denoised, PicturesKeepTheirSamplesAndAllData) {
     EXPECT_TRUE(std::ranges::all_of(data.at("denoising_first_samples.Y"), [](float n) { return n == 4.0f; }));
     expectRun("render cornell -o first.exr --width 48 --height 40 --spp 4 --quiet --device cpu");
     EXPECT_EQ(data.at("denoising_first.G"), channels("first.exr").at("G"));
-    EXPECT_EQ(attributeText(folder / "clean.exr", "denoised"), "hyalite denoiser 2");
+    EXPECT_EQ(attributeText(folder / "clean.exr", "denoised"), "hyalite denoiser 3");
     EXPECT_EQ(attributeText(folder / "data.exr", "denoised"), "none");
 }
 
@@ -96,7 +96,7 @@ TEST_F(Denoised, FilesHaveThePictureOfTheRender) {
     expectRun("denoise data.exr a.png --tone agx --exposure 1 --quiet");
     expectRun("tonemap clean.exr b.png --tone agx --exposure 1");
     EXPECT_EQ(run("diff a.png b.png").exitCode, 0);
-    EXPECT_TRUE(contains(load("a.png"), "hyalite denoiser 2"));
+    EXPECT_TRUE(contains(load("a.png"), "hyalite denoiser 3"));
 }
 
 TEST_F(Denoised, PicturesHaveTheSameBitsOnAnyDevice) {
@@ -119,7 +119,7 @@ TEST_F(Denoised, PartsMakeThePictureOfOneRender) {
     renderParts(" --denoise");
     expectRun("merge 1.part 2.part 3.part -o merged.exr --quiet --audit 50%");
     EXPECT_TRUE(areSame(channels("whole.exr"), channels("merged.exr")));
-    EXPECT_EQ(attributeText(folder / "merged.exr", "denoised"), "hyalite denoiser 2");
+    EXPECT_EQ(attributeText(folder / "merged.exr", "denoised"), "hyalite denoiser 3");
     const Outcome partial = run("merge 1.part 2.part -o partial.exr --partial --quiet");
     EXPECT_EQ(partial.exitCode, 0) << partial;
     EXPECT_TRUE(contains(partial.errors, "stays noisy: it lacks parts")) << partial;
@@ -191,14 +191,14 @@ TEST_F(Denoised, PicturesAreRefusedWithAWayOut) {
 
 TEST_F(Denoised, ReportsSequencesAndSheetsSaySo) {
     const nlohmann::json report = renderReport("cornell --denoise --width 48 --height 40 --spp 6");
-    EXPECT_EQ(report.at("denoised"), "hyalite denoiser 2");
+    EXPECT_EQ(report.at("denoised"), "hyalite denoiser 3");
     EXPECT_EQ(report.at("settings").at("denoise"), true);
     expectRun("render cornell --turntable 8 --frames 0..1 -o '#.exr' --denoise" + onCpu);
-    EXPECT_EQ(attributeText(folder / "1.exr", "denoised"), "hyalite denoiser 2");
+    EXPECT_EQ(attributeText(folder / "1.exr", "denoised"), "hyalite denoiser 3");
     expectRun("render cornell --views front,left -o sheet.png --denoise" + onCpu);
     store("scene.json", R"({"settings": {"integrator": "path", "denoise": true}})");
     expectRun("render scene.json -o own.exr" + onCpu);
-    EXPECT_EQ(attributeText(folder / "own.exr", "denoised"), "hyalite denoiser 2");
+    EXPECT_EQ(attributeText(folder / "own.exr", "denoised"), "hyalite denoiser 3");
 }
 
 } // namespace

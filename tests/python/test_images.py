@@ -31,7 +31,7 @@ def test_denoised_images_keep_their_samples_and_the_data(renderer, image):
                                   "denoising_albedo", "denoising_normal", "denoising_depth"]
     assert equal(clean.layers["noisy"], image.pixels) and equal(clean.variance, image.variance)
     assert (clean.layers["denoising_first_samples"] == 2).all()
-    assert clean.provenance["denoised"] == "hyalite denoiser 2"
+    assert clean.provenance["denoised"] == "hyalite denoiser 3"
     assert "denoised" not in image.provenance
 
 

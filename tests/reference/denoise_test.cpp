@@ -87,6 +87,13 @@ TEST(Denoiser, TakesAwayPixelsThatHaveMissedALight) {
     EXPECT_LT(countDark(denoise(noisy.picture)), 3);
 }
 
+// Where few samples bring most of the light, pixels side by side that have missed it agree, as if they had no noise.
+TEST(Denoiser, IsNotMisledByPixelsThatHaveAllMissedRareLight) {
+    EXPECT_GT(gainOf(makeNoisy(96, 96, 8, 16, 3,
+                               [](int, int) { return Truth{.rarity = 0.05f, .rareShare = 0.6f}; })),
+              50.0);
+}
+
 /// A flat wall with a pixel of this colour and first half.
 Image withHotPixel(float colour, float first) {
     NoisyTruth noisy = makeNoisy(32, 32, 8, 16, 3, [](int, int) { return Truth{.spread = 0.5f}; });
