@@ -74,7 +74,7 @@ const int varianceRadius = 3;
 const int guideRadius = 1;
 const int errorRadius = 2;
 const int choiceRadius = 2;
-const int spreadRadius = 4;
+const int spreadRadius = 4; // between the counts that decide together
 
 // Of a tile beyond its own pixels: what the passes above read, and estimates by a coarse fit, whose anchor is less than
 // 6 pixels away, and its neighbours another 4 blocks, of which the last one ends a pixel further.
@@ -89,7 +89,7 @@ const uint bindingModels = 4u;    // of each fit's anchors, for both halves
 const uint bindingEstimates = 5u; // each with its error
 const uint bindingChoices = 6u;   // the estimate's index
 const uint bindingDenoised = 7u;  // the colour
-const uint denoiserBindingCount = 8u; // few devices allow more
+const uint denoiserBindingCount = 8u; // some devices allow no more
 const uint bindingCounts = bindingVariances; // how many neighbours have chosen each estimate, when those are done with
 const int noisyRows = 5;
 const int splitRows = 4;

@@ -157,7 +157,7 @@ def short(words):
 
 
 def test_the_prolog_passes_sound_nodes_and_drains_others(program, tmp_path):
-    variables = {"MINUTES": "0.01", "DEVICE": "cpu", "REPORTS": str(tmp_path), "SLURM_JOB_ID": "7"}
+    variables = {"MINUTES": "0.05", "DEVICE": "cpu", "REPORTS": str(tmp_path), "SLURM_JOB_ID": "7"}
     prolog = HEALTH / "slurm-prolog.sh"
     done = subprocess.run([prolog], env={**os.environ, **variables, "HYALITE": program}, capture_output=True, text=True)
     assert done.returncode == 0, done
