@@ -41,13 +41,15 @@ def timed(renderer, scene, **settings):
 
 
 def in_time(renderer, scene, seconds, **settings):
-    """The picture of as many samples as take so long, and their number."""
-    few, many = 4, 12
+    """The picture of as many samples as take so long, within a tenth, and their number."""
+    few, spp = 4, 12
     renderer.render(scene, spp=few, **settings)  # scene and pipelines
-    at_few, at_many = (timed(renderer, scene, spp=spp, **settings)[1] for spp in (few, many))
-    each = (at_many - at_few) / (many - few)
-    spp = max(2, round(few + (seconds - at_few) / each))
-    return renderer.render(scene, spp=spp, **settings), spp
+    at_few = timed(renderer, scene, spp=few, **settings)[1]
+    image, took = timed(renderer, scene, spp=spp, **settings)
+    while abs(took - seconds) > 0.1 * seconds:
+        spp = max(few + 1, round(few + (seconds - at_few) * (spp - few) / max(took - at_few, 0.01)))
+        image, took = timed(renderer, scene, spp=spp, **settings)
+    return image, spp
 
 
 def write(image, tone, *path):
