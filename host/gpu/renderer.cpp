@@ -238,7 +238,9 @@ class Renderer::Attempt {
         const Job firstJob = jobOf(bands.front());
         const JobPlan firstPlan = planJob(firstJob, config_, state_.info);
         state_.keepOnly(scene_, *config_.kernel);
-        result_.memory = state_.requireMemory(scenePlan_, firstPlan);
+        Job whole = firstJob; // all pixels of the largest band, with all of their samples
+        whole.film = {};
+        result_.memory = state_.requireMemory(scenePlan_, planJob(whole, config_, state_.info));
         // A driver compiles a pipeline on one processor. Meanwhile the others prepare the buffers, if they are not
         // there.
         const std::launch when = state_.resident ? std::launch::deferred : std::launch::async;
@@ -254,8 +256,20 @@ class Renderer::Attempt {
     }
 
   private:
+    [[nodiscard]] BandRange rangeOf(const Crop &band) const {
+        const Crop &crop = result_.film.crop;
+        const auto width = static_cast<std::size_t>(crop.width());
+        return {static_cast<std::size_t>(band.y0 - crop.y0) * width,
+                static_cast<std::size_t>(band.height()) * width};
+    }
+
     [[nodiscard]] Job jobOf(const Crop &band) const {
-        return {scene_, settings_, band, 0, static_cast<std::uint32_t>(settings_.samplesPerPixel), false};
+        Job job{scene_, settings_, band, 0, static_cast<std::uint32_t>(settings_.samplesPerPixel), false};
+        if (isBegun_) {
+            job.film = rangeOf(band).pixelsOf(result_.film);
+            job.light = rangeOf(band).lightOf(result_.film);
+        }
+        return job;
     }
 
     /// Returns the time of the stage.
@@ -269,14 +283,8 @@ class Renderer::Attempt {
     /// Returns false if the hooks stop the render.
     bool renderBand(const Crop &band, const SceneBuffers &buffers, std::future<void> &firstPipeline) {
         const Crop crop = result_.film.crop;
-        const auto width = static_cast<std::size_t>(crop.width());
-        const BandRange range{static_cast<std::size_t>(band.y0 - crop.y0) * width,
-                              static_cast<std::size_t>(band.height()) * width};
-        Job job = jobOf(band);
-        if (isBegun_) {
-            job.film = range.pixelsOf(result_.film);
-            job.light = range.lightOf(result_.film);
-        }
+        const BandRange range = rangeOf(band);
+        const Job job = jobOf(band);
         const RayCounts raysBefore = result_.rays;
         DispatchCosts &costs = state_.resident->costs[settings_.integrator];
         RenderTiming &timing = result_.timing;

@@ -244,9 +244,9 @@ def main():
     denoised = program("Hyalite, lavapipe, denoised", "denoised", run_on("llvmpipe", "--denoise"), lavapipe)
     cornell_size, metals_size = ((96, 96), (128, 80)) if is_quick else ((256, 256), (320, 200))
     scenes = [Scene("cornell", CORNELL, 0.001, *cornell_size), Scene("metals", write_metals(folder), 1, *metals_size)]
-    scenes = [scene for scene in scenes if scene.name in arguments.scenes]
-    if not scenes:
+    if not set(arguments.scenes) <= {scene.name for scene in scenes}:
         fail("SCENE is cornell or metals")
+    scenes = [scene for scene in scenes if scene.name in arguments.scenes]
     turns = 1 if is_quick else 3
     print_versions(hyalite)
     print("\n| scene | mean, of Cycles' | of regions |\n|---|---|---|")

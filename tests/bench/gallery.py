@@ -41,12 +41,14 @@ def timed(renderer, scene, **settings):
 
 
 def in_time(renderer, scene, seconds, **settings):
-    """The picture of as many samples as take so long, within a tenth, and their number."""
+    """The picture of as many samples as take about so long, and their number."""
     few, spp = 4, 12
     renderer.render(scene, spp=few, **settings)  # scene and pipelines
     at_few = timed(renderer, scene, spp=few, **settings)[1]
     image, took = timed(renderer, scene, spp=spp, **settings)
-    while abs(took - seconds) > 0.1 * seconds:
+    for _ in range(4):
+        if abs(took - seconds) <= 0.1 * seconds:
+            break
         spp = max(few + 1, round(few + (seconds - at_few) * (spp - few) / max(took - at_few, 0.01)))
         image, took = timed(renderer, scene, spp=spp, **settings)
     return image, spp
