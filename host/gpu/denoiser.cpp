@@ -9,9 +9,8 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <map>
-#include <string>
+#include <string_view>
 
 namespace hyalite::core::gpu {
 
@@ -26,30 +25,48 @@ constexpr std::array<const char *, denoiserBindingCount> bufferNames{
     "the noisy tile",    "the halves of the tile", "the variances of the tile", "the levels of the tile",
     "the tile's models", "the tile's estimates",   "the tile's choices",        "the denoised tile"};
 
-std::size_t productOf(int width, int height) {
+std::size_t pixelsOf(int width, int height) {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-/// Pixels of a fit's level.
-std::size_t levelPixels(int width, int height, int fit) {
-    return productOf(layout::levelSize(width, fit), layout::levelSize(height, fit));
+std::size_t pixelsOfLevel(int width, int height, int fit) {
+    return pixelsOf(layout::levelSize(width, fit), layout::levelSize(height, fit));
 }
 
 std::size_t anchorsOf(int width, int height, int fit) {
-    return productOf(layout::anchorCount(layout::levelSize(width, fit)),
-                     layout::anchorCount(layout::levelSize(height, fit)));
+    return pixelsOf(layout::anchorCount(layout::levelSize(width, fit)),
+                    layout::anchorCount(layout::levelSize(height, fit)));
 }
+
+struct Pass {
+    const char *kernel;
+    int fit = layout::fitWide; ///< whose level has all pixels of the tile
+    std::size_t (*invocations)(int width, int height, int fit) = pixelsOfLevel; ///< of a tile of this size
+};
+
+/// In their order.
+constexpr std::array passes{Pass{"denoiserSplit"},
+                            Pass{"denoiserVariance"},
+                            Pass{"denoiserGuides"},
+                            Pass{"denoiserCoarse", layout::fitCoarse},
+                            Pass{"denoiserFit", layout::fitWide, anchorsOf},
+                            Pass{"denoiserFit", layout::fitNarrow, anchorsOf},
+                            Pass{"denoiserFit", layout::fitCoarse, anchorsOf},
+                            Pass{"denoiserEstimate"},
+                            Pass{"denoiserChoice"},
+                            Pass{"denoiserCounts"},
+                            Pass{"denoiserBlend"}};
 
 /// In the buffer at each binding, of a tile of this size.
 std::array<std::size_t, denoiserBindingCount> texelsOf(int width, int height) {
-    const std::size_t pixels = productOf(width, height);
+    const std::size_t pixels = pixelsOf(width, height);
     std::size_t anchors = 0;
     for (int fit = 0; fit < layout::fitCount; ++fit)
         anchors += anchorsOf(width, height, fit);
     return {pixels * layout::noisyRows,
             pixels * layout::splitRows,
             pixels,
-            (pixels + levelPixels(width, height, layout::fitCoarse)) * layout::levelRows,
+            (pixels + pixelsOfLevel(width, height, layout::fitCoarse)) * layout::levelRows,
             anchors * 2 * layout::modelRows,
             pixels * layout::estimateCount,
             pixels,
@@ -88,12 +105,10 @@ class TileDenoiser {
         SpecializationConstants constants{};
         constants[layout::constantWorkgroupSize] = passGroupSize;
         constants[layout::constantExactDivision] = isDivisionExact;
-        for (const char *pass :
-             {"Split", "Variance", "Guides", "Coarse", "Fit", "Estimate", "Choice", "Counts", "Blend"}) {
-            const std::string name = std::string("denoiser") + pass;
-            kernels_.try_emplace(pass, device,
-                                 pipelines.get(device, name, embeddedKernel(name), constants, uses), bound);
-        }
+        for (const Pass &pass : passes)
+            kernels_.try_emplace(
+                pass.kernel, device,
+                pipelines.get(device, pass.kernel, embeddedKernel(pass.kernel), constants, uses), bound);
     }
 
     [[nodiscard]] std::vector<glm::vec3> denoised(const NoisyPicture &tile) {
@@ -101,31 +116,20 @@ class TileDenoiser {
         layout::DispatchConstants dispatch{};
         dispatch.tileWidth = static_cast<std::uint32_t>(tile.width);
         dispatch.tileHeight = static_cast<std::uint32_t>(tile.height);
-        const auto run = [&](const std::string &pass, std::size_t invocations) {
-            kernels_.at(pass).run(dispatch, (static_cast<std::uint32_t>(invocations) + passGroupSize - 1) /
-                                                passGroupSize);
-        };
-        const std::size_t pixelCount = tile.pixels.size();
-        run("Split", pixelCount);
-        run("Variance", pixelCount);
-        run("Guides", pixelCount);
-        run("Coarse", levelPixels(tile.width, tile.height, layout::fitCoarse));
-        for (int fit = 0; fit < layout::fitCount; ++fit) {
-            dispatch.fit = static_cast<std::uint32_t>(fit);
-            run("Fit", anchorsOf(tile.width, tile.height, fit));
+        for (const Pass &pass : passes) {
+            dispatch.fit = static_cast<std::uint32_t>(pass.fit);
+            const std::size_t invocations = pass.invocations(tile.width, tile.height, pass.fit);
+            const std::size_t groups = (invocations + passGroupSize - 1) / passGroupSize;
+            kernels_.at(pass.kernel).run(dispatch, static_cast<std::uint32_t>(groups));
         }
-        run("Estimate", pixelCount);
-        run("Choice", pixelCount);
-        run("Counts", pixelCount);
-        run("Blend", pixelCount);
-        std::vector<glm::vec4> texels(pixelCount);
+        std::vector<glm::vec4> texels(tile.pixels.size());
         buffers_[layout::bindingDenoised].download(std::as_writable_bytes(std::span(texels)));
         return {texels.begin(), texels.end()};
     }
 
   private:
     std::vector<Buffer> buffers_;
-    std::map<std::string, Kernel, std::less<>> kernels_; ///< by pass
+    std::map<std::string_view, Kernel> kernels_; ///< by name
 };
 
 } // namespace
