@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import {after, before, beforeEach, test} from "node:test";
 import {storeRoom} from "./room.mjs";
-import {Folder, Viewer, assertShowsItsCommand, complaints, openBrowser, open, settle, stateOf, until} from "./viewer.mjs";
+import {Folder, Viewer, assertShowsItsCommand, complaints, openBrowser, open, patience, settle,
+        stateOf, until} from "./viewer.mjs";
 
 const folder = new Folder;
 const camera = {aperture: 0.5, focusDistance: 6};
@@ -151,7 +152,7 @@ test("a double-click looks at what is there", async () => {
 
 test("a click tells what is there, and with Alt focuses on it", async () => {
     await page.mouse.click(...at(0.5, 0.5));
-    await page.waitForFunction(() => element("point").textContent.startsWith("Pixel 48, 32"), {timeout: 5000});
+    await page.waitForFunction(() => element("point").textContent.startsWith("Pixel 48, 32"), {timeout: patience});
     const text = await page.$eval("#point", point => point.textContent);
     assert.match(text, /^Pixel 48, 32: \d.*\n.*clay, \d/);
     assert.deepEqual((await stateOf(page)).camera, atFirst);

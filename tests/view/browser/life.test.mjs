@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import {rmSync, writeFileSync} from "node:fs";
 import {after, before, test} from "node:test";
 import {room, storeRoom} from "./room.mjs";
-import {Folder, Viewer, assertEqualPictures, assertShowsItsCommand, canvasOf, complaints, openBrowser, open, settle,
-        stateOf, until} from "./viewer.mjs";
+import {Folder, Viewer, assertEqualPictures, assertShowsItsCommand, canvasOf, complaints, openBrowser, open, patience,
+        settle, stateOf, until} from "./viewer.mjs";
 
 const folder = new Folder;
 let browser, viewer, page;
@@ -31,6 +31,7 @@ async function turn(page) {
 
 test("a tab follows another", async () => {
     const other = await open(browser, viewer);
+    await settle(other);
     const before = await canvasOf(page);
     await turn(other);
     await settle(page);
@@ -73,17 +74,17 @@ test("a file that changes is shown anew, and its faults are told", async () => {
     const seen = await canvasOf(page);
     for (const text of ["{", JSON.stringify({...room(), spheres: 7})]) {
         writeFileSync(folder.of("room.json"), text);
-        await page.waitForFunction(() => !element("fault").hidden, {timeout: 10_000});
+        await page.waitForFunction(() => !element("fault").hidden, {timeout: patience});
         assert.match(await fault(), /room\.json/);
         assert.deepEqual((await canvasOf(page)).pixels, seen.pixels, "the old picture stays");
         storeRoom(folder, {albedo: [0.1, 0.2, 0.9]});
-        await page.waitForFunction(() => element("fault").hidden, {timeout: 10_000});
+        await page.waitForFunction(() => element("fault").hidden, {timeout: patience});
     }
     rmSync(folder.of("floor.obj"));
-    await page.waitForFunction(() => !element("fault").hidden, {timeout: 10_000});
+    await page.waitForFunction(() => !element("fault").hidden, {timeout: patience});
     assert.match(await fault(), /floor\.obj/);
     storeRoom(folder);
-    await page.waitForFunction(() => element("fault").hidden, {timeout: 10_000});
+    await page.waitForFunction(() => element("fault").hidden, {timeout: patience});
     await assertShowsItsCommand(page, folder, "the mended file");
 });
 
@@ -126,7 +127,7 @@ for (const [signal, status, options] of [["SIGINT", 130, ["--device", "cpu"]], [
         assert.equal(code, status);
         assert.ok(millis < 1000, `${millis} ms`);
         for (const each of pages) {
-            await each.waitForFunction(() => element("fault").textContent.includes("does not answer"), {timeout: 5000});
+            await each.waitForFunction(() => element("fault").textContent.includes("does not answer"), {timeout: patience});
             await each.close();
         }
     });

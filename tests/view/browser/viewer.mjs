@@ -9,7 +9,7 @@ import {inflateSync} from "node:zlib";
 import puppeteer from "puppeteer-core";
 
 const program = process.env.PROGRAM;
-export const patience = 20_000; // milliseconds
+export const patience = 60_000; // milliseconds
 
 // A folder of its own, in which the viewer runs and `hyalite` is a command.
 export class Folder {
