@@ -26,18 +26,18 @@ struct Tools {
 
 } // namespace
 
-std::string errorsIn(const Words &words) {
+std::string errorsIn(const ModuleWords &words) {
     Tools validator;
     return validator.tools.Validate(words) ? "" : validator.messages + "invalid";
 }
 
-std::size_t countOf(const Words &words, spv::Op opcode) {
+std::size_t countOf(const ModuleWords &words, spv::Op opcode) {
     const auto instructions = gpu::instructionsOf(words);
     return static_cast<std::size_t>(
         std::ranges::count(instructions, opcode, [](const auto &i) { return i.opcode(); }));
 }
 
-Words moduleWith(const std::string &body, const std::string &declarations) {
+ModuleWords moduleWith(const std::string &body, const std::string &declarations) {
     std::string text = R"(
         OpCapability Shader
         OpMemoryModel Logical GLSL450
@@ -73,13 +73,13 @@ Words moduleWith(const std::string &body, const std::string &declarations) {
     )" + body +
             "\nOpFunctionEnd\n";
     Tools assembler;
-    Words words;
+    ModuleWords words;
     EXPECT_TRUE(assembler.tools.Assemble(text, &words)) << assembler.messages;
     EXPECT_EQ(errorsIn(words), "") << "before";
     return words;
 }
 
-std::string storesOf(const Words &words) {
+std::string storesOf(const ModuleWords &words) {
     std::map<std::uint32_t, std::string> constants;
     std::string stores;
     for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words)) {

@@ -22,10 +22,8 @@
 namespace hyalite::core::testing {
 namespace {
 
-using Words = std::vector<std::uint32_t>;
-
 /// A module whose function `main` does one thing with %x and %y (vec3), %s (float) and %matrix (mat3).
-Words moduleWith(const std::string &operation) {
+std::vector<std::uint32_t> moduleThatDoes(const std::string &operation) {
     const std::string text = R"(
         OpCapability Shader
         %glsl = OpExtInstImport "GLSL.std.450"
@@ -50,7 +48,7 @@ Words moduleWith(const std::string &operation) {
         OpFunctionEnd
     )";
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    Words words;
+    std::vector<std::uint32_t> words;
     EXPECT_TRUE(tools.Assemble(text, &words)) << operation;
     return words;
 }
@@ -79,7 +77,7 @@ TEST(NoContraction, IsOnEveryOperationThatADriverGets) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : allKernels()) {
         for (int i = 0; i < 3; ++i) {
-            const Words words =
+            const std::vector<std::uint32_t> words =
                 gpu::addFloatControls(gpu::specialise(kernel.words, drawnConstants(random)), {true, true});
             EXPECT_EQ(roundingsOf(words).contracted, std::vector<std::string>{}) << kernel.name;
         }
@@ -101,9 +99,9 @@ void PrintTo(const OperationCase &one, std::ostream *stream) { *stream << one.na
 class RoundedOperation : public ::testing::TestWithParam<OperationCase> {};
 
 TEST_P(RoundedOperation, IsDecoratedAndNothingElseChanges) {
-    const Words plain = moduleWith(GetParam().operation);
+    const std::vector<std::uint32_t> plain = moduleThatDoes(GetParam().operation);
     ASSERT_EQ(roundingsOf(plain).contracted.size(), 1u);
-    const Words words = gpu::decorateNoContraction(plain);
+    const std::vector<std::uint32_t> words = gpu::decorateNoContraction(plain);
     EXPECT_TRUE(roundingsOf(words).contracted.empty());
     ASSERT_EQ(words.size(), plain.size() + 3); // one OpDecorate
     EXPECT_TRUE(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(words));
@@ -123,7 +121,7 @@ class RefusedOperation : public ::testing::TestWithParam<OperationCase> {};
 
 TEST_P(RefusedOperation, IsNamedWithItsFunction) {
     try {
-        static_cast<void>(gpu::decorateNoContraction(moduleWith(GetParam().operation)));
+        static_cast<void>(gpu::decorateNoContraction(moduleThatDoes(GetParam().operation)));
         FAIL() << "it was accepted";
     } catch (const std::invalid_argument &error) {
         const std::string message = error.what();

@@ -82,7 +82,7 @@ float textureCoordinate(Draw &draw) {
                             : draw.unit();
 }
 
-uint countOf(const auto &array) { return static_cast<uint>(array.size()); }
+uint lengthOf(const auto &array) { return static_cast<uint>(array.size()); }
 
 /// Of unit length except for rounding, and not on the side of `direction`.
 vec3 against(const vec3 &direction, Draw &draw) {
@@ -108,8 +108,8 @@ struct Situation {
                 profiledEmitters.push_back(i);
     }
 
-    const auto &some(const auto &array) { return array[draw.index(countOf(array))]; }
-    uint indexIn(const auto &array) { return draw.index(countOf(array)); }
+    const auto &some(const auto &array) { return array[draw.index(lengthOf(array))]; }
+    uint indexIn(const auto &array) { return draw.index(lengthOf(array)); }
 
     void begin() {
         v0 = draw.point();
@@ -406,7 +406,7 @@ const std::vector<InputRow> inputRows{
     {"SheenFit", by([](S &s) { return sheenFit(alpha(s.draw)); })},
     {"EmitterRecord sampleProfiled.emitter",
      by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.some(s.profiledEmitters)]; })},
-    {"uint profileShare.index", by([](S &s) { return s.draw.index(countOf(s.profiledEmitters)); })},
+    {"uint profileShare.index", by([](S &s) { return s.draw.index(lengthOf(s.profiledEmitters)); })},
     {"vec3 profileShare.axis", by([](S &s) { return s.direction; })},
     {"vec3 profileShare.toLight", by([](S &s) {
          return s.draw.chance(2) ? s.draw.direction() : s.draw.chance(2) ? s.direction : -s.direction;
@@ -422,7 +422,7 @@ const std::vector<InputRow> inputRows{
      by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.lamp]; })},
     {"EmitterRecord sampleTriangleLight.emitter",
      by([](S &s) -> EmitterRecord<float> { return s.packed.emitters[s.some(s.triangleEmitters)]; })},
-    {"uint splitLights.first", by([](S &s) { return s.draw.index(countOf(s.packed.lightNodes) / 2) * 2; })},
+    {"uint splitLights.first", by([](S &s) { return s.draw.index(lengthOf(s.packed.lightNodes) / 2) * 2; })},
 
     // Lookups.
     {"vec2 uv0, vec2 uv1, vec2 uv2, vec2 first, vec2 second", by([](S &s) {
@@ -435,7 +435,7 @@ const std::vector<InputRow> inputRows{
     {"MaterialRecord texturedMaterial.material", by([](S &s) { return s.texturedMaterial(); })},
     {"uint row", by([](S &s) { return s.texture; })},
     {"uint textureWords.row, uint coordinatesAt.row, uint fetchTangent.row",
-     by([](S &s) { return s.draw.index(countOf(s.packed.textures) - 1); })},
+     by([](S &s) { return s.draw.index(lengthOf(s.packed.textures) - 1); })},
     {"uint textureWord.row, uint tableRow",
      by([](S &s) { return s.draw.chance(2) ? layout::srgbTableRow : layout::linearTableRow; })},
     {"uint textureWord.index, uint level", by([](S &s) { return s.draw.index(256); })},

@@ -19,7 +19,7 @@ namespace hyalite::core::testing {
 namespace {
 
 /// Selections whose branch goes to two blocks other than the merge block.
-int twoArmedCount(const Words &words) {
+int twoArmedCount(const ModuleWords &words) {
     int count = 0;
     std::uint32_t merge = 0;
     for (const gpu::SpirvInstruction &instruction : gpu::instructionsOf(words)) {
@@ -36,8 +36,8 @@ TEST(OneArmed, LeavesNoSelectionOfTwoArmsInAKernel) {
     int before = 0;
     for (const EmbeddedKernel &kernel : kernelsInTurn(2)) {
         for (int i = 0; i < repetitions(1, 4); ++i) {
-            const Words specialised = gpu::specialise(kernel.words, drawnConstants(random));
-            const Words words = gpu::makeSelectionsOneArmed(specialised);
+            const ModuleWords specialised = gpu::specialise(kernel.words, drawnConstants(random));
+            const ModuleWords words = gpu::makeSelectionsOneArmed(specialised);
             ASSERT_EQ(errorsIn(words), "") << kernel.name;
             ASSERT_EQ(twoArmedCount(words), 0) << kernel.name;
             before += twoArmedCount(specialised);
@@ -47,7 +47,7 @@ TEST(OneArmed, LeavesNoSelectionOfTwoArmsInAKernel) {
 }
 
 TEST(OneArmed, SendsValuesOfTheFirstArmThroughAPhi) {
-    const Words words = gpu::makeSelectionsOneArmed(moduleWith(R"(
+    const ModuleWords words = gpu::makeSelectionsOneArmed(moduleWith(R"(
         OpSelectionMerge %end None
         OpBranchConditional %unknown %then %else
         %then = OpLabel
@@ -67,7 +67,7 @@ TEST(OneArmed, SendsValuesOfTheFirstArmThroughAPhi) {
 }
 
 TEST(OneArmed, LeavesASelectionOfOneArmAsItIs) {
-    const Words words = moduleWith(R"(
+    const ModuleWords words = moduleWith(R"(
         OpSelectionMerge %end None
         OpBranchConditional %unknown %end %else
         %else = OpLabel
@@ -174,12 +174,12 @@ TEST(OneArmed, DoesTheSameInEachCase) {
                                     bit, 1 << bit);
     std::mt19937 random(1);
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
-        const Words words = moduleWith(DrawnBody(seed).text(), declarations);
-        const Words oneArmed = gpu::makeSelectionsOneArmed(words);
+        const ModuleWords words = moduleWith(DrawnBody(seed).text(), declarations);
+        const ModuleWords oneArmed = gpu::makeSelectionsOneArmed(words);
         ASSERT_EQ(errorsIn(oneArmed), "") << "seed " << seed;
         ASSERT_EQ(twoArmedCount(oneArmed), 0) << "seed " << seed;
         for (int i = 0; i < 10; ++i) {
-            const Words constants{1, 0, static_cast<std::uint32_t>(random() & 255u)};
+            const ModuleWords constants{1, 0, static_cast<std::uint32_t>(random() & 255u)};
             ASSERT_EQ(storesOf(gpu::specialise(oneArmed, constants)),
                       storesOf(gpu::specialise(words, constants)))
                 << "seed " << seed << ", bits " << constants[2];

@@ -17,10 +17,10 @@ namespace hyalite::core::testing {
 namespace {
 
 /// The module with the ids that SPIRV-Tools gives it, in the order of their first mention.
-Words compacted(const Words &words) {
+ModuleWords compacted(const ModuleWords &words) {
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
     optimizer.RegisterPass(spvtools::CreateCompactIdsPass());
-    Words result;
+    ModuleWords result;
     EXPECT_TRUE(optimizer.Run(words.data(), words.size(), &result));
     return result;
 }
@@ -29,8 +29,8 @@ TEST(Renumber, IsWhatSpirvToolsMake) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : kernelsInTurn(0)) {
         for (int i = 0; i < repetitions(1, 4); ++i) {
-            const Words specialised = gpu::specialise(kernel.words, drawnConstants(random));
-            const Words words = gpu::renumber(specialised);
+            const ModuleWords specialised = gpu::specialise(kernel.words, drawnConstants(random));
+            const ModuleWords words = gpu::renumber(specialised);
             ASSERT_EQ(errorsIn(words), "") << kernel.name;
             ASSERT_EQ(words, compacted(specialised)) << kernel.name;
             ASSERT_LE(words[gpu::spirvBoundWord], specialised[gpu::spirvBoundWord]) << kernel.name;
@@ -39,7 +39,7 @@ TEST(Renumber, IsWhatSpirvToolsMake) {
 }
 
 TEST(Renumber, KnowsLiteralsFromIds) {
-    const Words words = gpu::renumber(moduleWith(R"(
+    const ModuleWords words = gpu::renumber(moduleWith(R"(
         OpSelectionMerge %end None
         OpSwitch %c3 %end 7 %other 65000 %end
         %other = OpLabel
@@ -59,7 +59,7 @@ TEST(Renumber, KnowsLiteralsFromIds) {
 }
 
 TEST(Renumber, RefusesWhatItDoesNotKnow) {
-    Words words = moduleWith("OpReturn");
+    ModuleWords words = moduleWith("OpReturn");
     gpu::append(words, spv::Op::OpEmitVertex, {});
     EXPECT_THROW((void)gpu::renumber(words), std::invalid_argument);
     words = moduleWith("OpReturn");

@@ -26,8 +26,8 @@ TEST(Specialise, LeavesValidKernels) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : kernelsInTurn(1)) {
         for (int i = 0; i < repetitions(1, 6); ++i) {
-            const Words constants = drawnConstants(random);
-            const Words words = gpu::specialise(kernel.words, constants);
+            const ModuleWords constants = drawnConstants(random);
+            const ModuleWords words = gpu::specialise(kernel.words, constants);
             ASSERT_EQ(errorsIn(words), "")
                 << kernel.name << " with " << fmt::format("{}", fmt::join(constants, " "));
             for (const spv::Op opcode : {spv::Op::OpSpecConstant, spv::Op::OpSpecConstantTrue,
@@ -39,23 +39,23 @@ TEST(Specialise, LeavesValidKernels) {
 
 TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
     const std::span<const std::uint32_t> kernel = embeddedKernel("pathSkipOneSlot");
-    Words constants(layout::constantCount);
+    ModuleWords constants(layout::constantCount);
     constants[layout::constantWorkgroupSize] = 64;
     constants[layout::constantSamplesInFlight] = 8;
     constants[layout::constantExactDivision] = 1;
-    const Words least = gpu::specialise(kernel, constants);
+    const ModuleWords least = gpu::specialise(kernel, constants);
     EXPECT_LT(least.size() * 10, kernel.size());
     const std::size_t reads = countOf(least, spv::Op::OpImageRead);
     constants[layout::constantHasTriangles] = 1;
-    const Words triangles = gpu::specialise(kernel, constants);
+    const ModuleWords triangles = gpu::specialise(kernel, constants);
     EXPECT_GT(countOf(triangles, spv::Op::OpImageRead), reads);
     constants[layout::constantTexturing] = layout::texturesBaseColour;
-    const Words textures = gpu::specialise(kernel, constants);
+    const ModuleWords textures = gpu::specialise(kernel, constants);
     EXPECT_GT(countOf(textures, spv::Op::OpImageRead), countOf(triangles, spv::Op::OpImageRead));
     // Our own division and root are integer arithmetic on significands.
     const std::size_t native = countOf(textures, spv::Op::OpFDiv);
     constants[layout::constantExactDivision] = 0;
-    const Words ours = gpu::specialise(kernel, constants);
+    const ModuleWords ours = gpu::specialise(kernel, constants);
     EXPECT_LT(countOf(ours, spv::Op::OpFDiv), native);
     EXPECT_GT(countOf(ours, spv::Op::OpIMul), countOf(textures, spv::Op::OpIMul));
 }
@@ -63,8 +63,8 @@ TEST(Specialise, LeavesOutWhatASceneDoesNotUse) {
 // ---- Written by hand
 
 /// The module for these constants, which must be valid.
-Words specialised(const Words &words, const Words &constants = {}) {
-    Words result = gpu::specialise(words, constants);
+ModuleWords specialised(const ModuleWords &words, const ModuleWords &constants = {}) {
+    ModuleWords result = gpu::specialise(words, constants);
     EXPECT_EQ(errorsIn(result), "") << "after";
     return result;
 }
@@ -85,7 +85,7 @@ const std::string eitherOne = R"(
 )";
 
 TEST(Specialise, TakesGivenValuesAndElseDefaults) {
-    const Words words = moduleWith(eitherOne);
+    const ModuleWords words = moduleWith(eitherOne);
     EXPECT_EQ(storesOf(words), "1 2 ? ");
     EXPECT_EQ(storesOf(specialised(words)), "1 3 ") << "true by default";
     EXPECT_EQ(storesOf(specialised(words, {0})), "2 4 ");
@@ -104,7 +104,7 @@ TEST(Specialise, KeepsWhatItCannotKnow) {
         %end = OpLabel
         OpReturn
     )";
-    const Words words = specialised(moduleWith(body));
+    const ModuleWords words = specialised(moduleWith(body));
     EXPECT_EQ(storesOf(words), "1 ");
     EXPECT_EQ(countOf(words, spv::Op::OpBranchConditional), 1u);
 }
@@ -144,7 +144,7 @@ TEST(Specialise, EvaluatesOperationsOnConstants) {
         %known = OpSpecConstantComposite %pair %seven %c1
         %shiftedToo = OpSpecConstantComposite %pair %seven %shifted
     )";
-    const Words words = specialised(moduleWith(body + "OpReturn", declarations + composites));
+    const ModuleWords words = specialised(moduleWith(body + "OpReturn", declarations + composites));
     EXPECT_EQ(storesOf(words), "9 4294967290 21 4 15 3 4294967288 2 3 6 8 ? ");
     EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantOp), 1u) << "what it does not know is left to the driver";
     EXPECT_EQ(countOf(words, spv::Op::OpSpecConstantComposite), 1u) << "and what is made of that";
@@ -177,7 +177,7 @@ TEST(Specialise, KnowsWhatFollowsFromConstants) {
         %last = OpLabel
         OpReturn
     )";
-    const Words words = moduleWith(body);
+    const ModuleWords words = moduleWith(body);
     EXPECT_EQ(storesOf(specialised(words)), "2 ");
     EXPECT_EQ(storesOf(specialised(words, {1, 1})), "1 2 ");
 }
@@ -235,7 +235,7 @@ TEST(Specialise, KeepsALoopWhoseWayBackIsGone) {
         OpStore %word %c3
         OpReturn
     )";
-    const Words words = moduleWith(body);
+    const ModuleWords words = moduleWith(body);
     EXPECT_EQ(storesOf(specialised(words)), "? 3 ");
     EXPECT_EQ(countOf(specialised(words), spv::Op::OpLoopMerge), 1u);
     EXPECT_EQ(storesOf(specialised(words, {0})), "? 2 ") << "and one that nothing leaves";
@@ -318,7 +318,7 @@ TEST(Specialise, KeepsWhereASelectionEndsThatIsNeverLeft) {
         OpStore %word %c3
         OpReturn
     )";
-    const Words words = specialised(moduleWith(body));
+    const ModuleWords words = specialised(moduleWith(body));
     EXPECT_EQ(storesOf(words), "1 ");
     EXPECT_EQ(countOf(words, spv::Op::OpUnreachable), 1u);
 }
@@ -346,11 +346,11 @@ std::string inlinedWithReturn(const std::string &condition) {
 
 TEST(Specialise, UnwrapsFunctionsThatNoLongerReturnEarly) {
     for (const char *condition : {"%yes", "%no"}) {
-        const Words words = specialised(moduleWith(inlinedWithReturn(condition)));
+        const ModuleWords words = specialised(moduleWith(inlinedWithReturn(condition)));
         EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 0u) << condition;
         EXPECT_EQ(storesOf(words), condition == std::string("%yes") ? "1 3 " : "2 3 ");
     }
-    const Words words = specialised(moduleWith(inlinedWithReturn("%unknown")));
+    const ModuleWords words = specialised(moduleWith(inlinedWithReturn("%unknown")));
     EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 1u);
     EXPECT_EQ(storesOf(words), "1 2 3 ");
 }
@@ -374,14 +374,14 @@ TEST(Specialise, KeepsASwitchThatIsLeftFromWithin) {
         OpStore %word %c3
         OpReturn
     )";
-    const Words words = specialised(moduleWith(body));
+    const ModuleWords words = specialised(moduleWith(body));
     EXPECT_EQ(countOf(words, spv::Op::OpSwitch), 1u);
     EXPECT_EQ(storesOf(words), "1 3 ");
 }
 
 TEST(Specialise, DropsNamesAndDecorationsOfWhatIsGone) {
     for (const EmbeddedKernel &kernel : allKernels()) {
-        const Words words = gpu::specialise(kernel.words, Words(layout::constantCount));
+        const ModuleWords words = gpu::specialise(kernel.words, ModuleWords(layout::constantCount));
         std::vector<bool> isDefined(words[gpu::spirvBoundWord]);
         const auto instructions = gpu::instructionsOf(words);
         for (const gpu::SpirvInstruction &instruction : instructions)
