@@ -20,7 +20,7 @@ thread_local std::vector<const void *> callers;
 } // namespace
 
 void prepareProcess() {
-    core::prepareProcess();
+    core::prepareProcess(core::ProcessOwner::Library);
     isProcessPrepared = true;
 }
 

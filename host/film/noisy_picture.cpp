@@ -78,6 +78,7 @@ Image denoisedByTiles(const NoisyPicture &picture, int side,
                        static_cast<std::size_t>(x);
             };
             NoisyPicture tile{around.width(), around.height()};
+            tile.pixels.reserve(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
             for (int y = around.y0; y < around.y1; ++y)
                 for (int x = around.x0; x < around.x1; ++x)
                     tile.pixels.push_back(scaled(picture.pixels[indexOf(x, y)], scale));

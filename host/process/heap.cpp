@@ -18,10 +18,9 @@ void useOneHeap() {
 #endif
 }
 
-void keepFreedMemory() {
+void keepFreedMemory([[maybe_unused]] int sizeBytes) {
 #ifdef M_TRIM_THRESHOLD
-    constexpr int minGivenBack = 4 << 20;
-    mallopt(M_MMAP_THRESHOLD, minGivenBack);
+    mallopt(M_MMAP_THRESHOLD, sizeBytes);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 #endif
 }

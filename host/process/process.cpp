@@ -5,9 +5,9 @@
 
 namespace hyalite::core {
 
-void prepareProcess() {
+void prepareProcess(ProcessOwner owner) {
     useOneHeap();
-    keepFreedMemory();
+    keepFreedMemory(owner == ProcessOwner::Program ? 4 << 20 : 32 << 20);
 }
 
 void prepareDriver(const gpu::ProcessorUse &use) {
