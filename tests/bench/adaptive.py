@@ -126,6 +126,7 @@ def main():
     is_estimate = arguments.what == "estimate"
     width, height = map(int, (arguments.size or ("64x48" if is_estimate else "240x160")).split("x"))
     size = {"width": width, "height": height, "integrator": "path"}
+    hyalite.prepare_process()  # as the command line prepares its own
     renderer = hyalite.Renderer(arguments.device)
     for word in arguments.scenes:
         name, _, noise = word.partition(":")

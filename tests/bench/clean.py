@@ -63,6 +63,7 @@ def text(found):
 def main():
     arguments, size = parsed(__doc__, "--flip", ".08,.05")
     wanted = [float(flip) for flip in arguments.flip.split(",")]
+    hyalite.prepare_process()  # as the command line prepares its own
     renderer = hyalite.Renderer(device=arguments.device)
     print("| scene | FLIP | noisy | denoised | share |\n|---|---|---|---|---|")
     for scene in arguments.scenes:

@@ -67,6 +67,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=30)
     parser.add_argument("--device", default="auto")
     arguments = parser.parse_args()
+    hyalite.prepare_process()  # as the command line prepares its own
     renderer = hyalite.Renderer(device=arguments.device)
     for scene in arguments.scenes:
         settings, tone = PICTURES[scene]
