@@ -5,6 +5,7 @@
 #include "host/gpu/spirv/specialise.h"
 #include "host/gpu/vk/float_controls.h"
 #include "tests/kernels/all_kernels.h"
+#include "tests/kernels/assembled_module.h"
 #include "tests/kernels/drawn_constants.h"
 #include "tests/kernels/spirv_module.h"
 
@@ -23,7 +24,7 @@ namespace hyalite::core::testing {
 namespace {
 
 /// A module whose function `main` does one thing with %x and %y (vec3), %s (float) and %matrix (mat3).
-std::vector<std::uint32_t> moduleThatDoes(const std::string &operation) {
+ModuleWords moduleThatDoes(const std::string &operation) {
     const std::string text = R"(
         OpCapability Shader
         %glsl = OpExtInstImport "GLSL.std.450"
@@ -48,7 +49,7 @@ std::vector<std::uint32_t> moduleThatDoes(const std::string &operation) {
         OpFunctionEnd
     )";
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    std::vector<std::uint32_t> words;
+    ModuleWords words;
     EXPECT_TRUE(tools.Assemble(text, &words)) << operation;
     return words;
 }
@@ -77,7 +78,7 @@ TEST(NoContraction, IsOnEveryOperationThatADriverGets) {
     std::mt19937 random(1);
     for (const EmbeddedKernel &kernel : allKernels()) {
         for (int i = 0; i < 3; ++i) {
-            const std::vector<std::uint32_t> words =
+            const ModuleWords words =
                 gpu::addFloatControls(gpu::specialise(kernel.words, drawnConstants(random)), {true, true});
             EXPECT_EQ(roundingsOf(words).contracted, std::vector<std::string>{}) << kernel.name;
         }
@@ -99,9 +100,9 @@ void PrintTo(const OperationCase &one, std::ostream *stream) { *stream << one.na
 class RoundedOperation : public ::testing::TestWithParam<OperationCase> {};
 
 TEST_P(RoundedOperation, IsDecoratedAndNothingElseChanges) {
-    const std::vector<std::uint32_t> plain = moduleThatDoes(GetParam().operation);
+    const ModuleWords plain = moduleThatDoes(GetParam().operation);
     ASSERT_EQ(roundingsOf(plain).contracted.size(), 1u);
-    const std::vector<std::uint32_t> words = gpu::decorateNoContraction(plain);
+    const ModuleWords words = gpu::decorateNoContraction(plain);
     EXPECT_TRUE(roundingsOf(words).contracted.empty());
     ASSERT_EQ(words.size(), plain.size() + 3); // one OpDecorate
     EXPECT_TRUE(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(words));

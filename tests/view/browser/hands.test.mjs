@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import {after, before, beforeEach, test} from "node:test";
 import {storeRoom} from "./room.mjs";
-import {Folder, Viewer, assertShowsItsCommand, complaints, openBrowser, open, patience, settle,
-        stateOf, until} from "./viewer.mjs";
+import {Folder, Viewer, assertShowsItsCommand, complaints, openBrowser, open, patience, settle, stateOf,
+        until} from "./viewer.mjs";
 
 const folder = new Folder;
 const camera = {aperture: 0.5, focusDistance: 6};

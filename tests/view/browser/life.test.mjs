@@ -127,7 +127,8 @@ for (const [signal, status, options] of [["SIGINT", 130, ["--device", "cpu"]], [
         assert.equal(code, status);
         assert.ok(millis < 1000, `${millis} ms`);
         for (const each of pages) {
-            await each.waitForFunction(() => element("fault").textContent.includes("does not answer"), {timeout: patience});
+            await each.waitForFunction(() => element("fault").textContent.includes("does not answer"),
+                                       {timeout: patience});
             await each.close();
         }
     });
