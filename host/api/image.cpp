@@ -33,8 +33,7 @@ void addLayer(const core::Layer &layer, const std::string &name, std::string_vie
               Image::Content &content) {
     const core::Crop &crop = content.film.crop;
     const auto width = static_cast<std::size_t>(crop.width()) * channels.size();
-    std::vector<float> &values =
-        content.layerValues.emplace_back(width * static_cast<std::size_t>(crop.height()));
+    std::vector<float> &values = content.layerValues.emplace_back(crop.pixelCount() * channels.size());
     for (int y = 0; y < crop.height(); ++y)
         layer.fillRow(y, std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
     content.layers.push_back({name, std::string(channels), values});

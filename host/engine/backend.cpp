@@ -19,8 +19,7 @@ namespace {
 
 /// Memory for a film and its image. Tone mapping and packing come later and take less.
 std::uint64_t filmBytes(const Crop &crop) {
-    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height()) *
-           (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
+    return crop.pixelCount() * (sizeof(layout::FilmPixel) + sizeof(glm::vec3));
 }
 
 [[noreturn]] void refuseFilm(const Crop &crop, std::uint64_t neededBytes, const std::string &available) {
@@ -56,11 +55,9 @@ Image Backend::denoise(const NoisyPicture &picture) { return reference::denoise(
 
 void requireFilmMemory(const Crop &crop, unsigned filmCount, std::uint32_t lightPlanes,
                        std::uint64_t moreBytes) {
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
-    const std::uint64_t neededBytes = filmCount * filmBytes(crop) +
-                                      pixels * lightPlanes * layout::lightWordsPerPlane * sizeof(float) +
-                                      moreBytes;
+    const std::uint64_t neededBytes =
+        filmCount * filmBytes(crop) +
+        crop.pixelCount() * lightPlanes * layout::lightWordsPerPlane * sizeof(float) + moreBytes;
     const std::optional<std::uint64_t> available = availableHostBytes();
     if (available && neededBytes > *available)
         refuseFilm(crop, neededBytes, sizeText(*available) + " are available");

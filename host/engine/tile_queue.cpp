@@ -9,10 +9,6 @@ namespace hyalite::core {
 
 namespace {
 
-std::uint64_t pixelsOf(const Crop &crop) {
-    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
-}
-
 bool canBeHalved(const Crop &crop) {
     return crop.width() > TileQueue::blockSide || crop.height() > TileQueue::blockSide;
 }
@@ -51,7 +47,7 @@ TileQueue::TileQueue(const Film &film, std::uint32_t samplesPerPixel) {
         const std::uint64_t unfinished = unfinishedPixels(film, crop, samplesPerPixel);
         if (unfinished == 0)
             continue;
-        if (unfinished == pixelsOf(crop) || pixelsOf(crop) <= crumb || !canBeHalved(crop)) {
+        if (unfinished == crop.pixelCount() || crop.pixelCount() <= crumb || !canBeHalved(crop)) {
             giveBack(crop);
         } else {
             const auto [first, second] = halves(crop);
@@ -66,8 +62,8 @@ std::optional<Crop> TileQueue::take(std::uint64_t maxPixels) {
         return std::nullopt;
     Crop tile = waiting_.back();
     waiting_.pop_back();
-    pixelCount_ -= pixelsOf(tile);
-    while (pixelsOf(tile) > maxPixels && canBeHalved(tile)) {
+    pixelCount_ -= tile.pixelCount();
+    while (tile.pixelCount() > maxPixels && canBeHalved(tile)) {
         const auto [first, second] = halves(tile);
         giveBack(second);
         tile = first;
@@ -77,7 +73,7 @@ std::optional<Crop> TileQueue::take(std::uint64_t maxPixels) {
 
 void TileQueue::giveBack(const Crop &tile) {
     waiting_.push_back(tile);
-    pixelCount_ += pixelsOf(tile);
+    pixelCount_ += tile.pixelCount();
 }
 
 std::uint64_t tilePixels(const TileWish &wish) {

@@ -31,11 +31,10 @@ struct Place {
 Place placeOf(std::span<const Crop> squares, std::size_t index) {
     for (const Crop &square : squares) {
         const auto width = static_cast<std::size_t>(square.width());
-        const std::size_t count = width * static_cast<std::size_t>(square.height());
-        if (index < count)
+        if (index < square.pixelCount())
             return {square, square.x0 + static_cast<int>(index % width),
                     square.y0 + static_cast<int>(index / width)};
-        index -= count;
+        index -= square.pixelCount();
     }
     return {};
 }

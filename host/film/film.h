@@ -92,9 +92,7 @@ struct Film : FilmRecords {
 
     /// Without samples.
     Film(const Crop &region)
-        : FilmRecords{std::vector<layout::FilmPixel>(static_cast<std::size_t>(region.width()) *
-                                                     static_cast<std::size_t>(region.height()))},
-          crop(region) {}
+        : FilmRecords{std::vector<layout::FilmPixel>(region.pixelCount())}, crop(region) {}
 
     /// Keeps layers of light by these names from now on. Their sums stay, if there are as many.
     void keepLight(std::vector<std::string> planes) {

@@ -172,12 +172,11 @@ double factorFor(double total, const Values &needs, std::span<const double> coun
     return high;
 }
 
-template <class BlockStart>
-void addBlocks(const Crop &square, std::size_t stride, const BlockStart &startAt,
-               std::vector<NoiseBlock> &blocks) {
+/// The blocks of a square whose pixels are `first` and later ones, row by row of `whole`.
+void addBlocks(const Crop &square, const Crop &whole, std::size_t first, std::vector<NoiseBlock> &blocks) {
     for (int y = square.y0; y < square.y1; y += noiseBlockSide)
         for (int x = square.x0; x < square.x1; x += noiseBlockSide)
-            blocks.push_back({startAt(x, y), stride,
+            blocks.push_back({first + whole.indexOf(x, y), static_cast<std::size_t>(whole.width()),
                               static_cast<std::size_t>(std::min(noiseBlockSide, square.x1 - x)),
                               static_cast<std::size_t>(std::min(noiseBlockSide, square.y1 - y))});
 }
@@ -282,14 +281,8 @@ NoiseTarget noiseTargetOf(const RenderSettings &settings) {
 
 std::vector<NoiseBlock> blocksInFilm(const Crop &film, std::span<const Crop> squares) {
     std::vector<NoiseBlock> blocks;
-    const auto width = static_cast<std::size_t>(film.width());
     for (const Crop &square : squares)
-        addBlocks(
-            square, width,
-            [&](int x, int y) {
-                return static_cast<std::size_t>(y - film.y0) * width + static_cast<std::size_t>(x - film.x0);
-            },
-            blocks);
+        addBlocks(square, film, 0, blocks);
     return blocks;
 }
 
@@ -297,15 +290,8 @@ std::vector<NoiseBlock> blocksInRecords(std::span<const Crop> squares) {
     std::vector<NoiseBlock> blocks;
     std::size_t before = 0;
     for (const Crop &square : squares) {
-        const auto width = static_cast<std::size_t>(square.width());
-        addBlocks(
-            square, width,
-            [&](int x, int y) {
-                return before + static_cast<std::size_t>(y - square.y0) * width +
-                       static_cast<std::size_t>(x - square.x0);
-            },
-            blocks);
-        before += width * static_cast<std::size_t>(square.height());
+        addBlocks(square, square, before, blocks);
+        before += square.pixelCount();
     }
     return blocks;
 }

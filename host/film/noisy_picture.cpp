@@ -78,18 +78,15 @@ Image denoisedByTiles(const NoisyPicture &picture, int side,
                        static_cast<std::size_t>(x);
             };
             NoisyPicture tile{around.width(), around.height()};
-            tile.pixels.reserve(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+            tile.pixels.reserve(around.pixelCount());
             for (int y = around.y0; y < around.y1; ++y)
                 for (int x = around.x0; x < around.x1; ++x)
                     tile.pixels.push_back(scaled(picture.pixels[indexOf(x, y)], scale));
             const std::vector<glm::vec3> colours = denoiseTile(tile);
             for (int y = own.y0; y < own.y1; ++y)
                 for (int x = own.x0; x < own.x1; ++x) {
-                    const auto at =
-                        static_cast<std::size_t>(y - around.y0) * static_cast<std::size_t>(tile.width) +
-                        static_cast<std::size_t>(x - around.x0);
                     const glm::vec3 &noisy = picture.pixels[indexOf(x, y)].colour;
-                    image.at(x, y) = isPlain(noisy, scale) ? colours[at] / scale : noisy;
+                    image.at(x, y) = isPlain(noisy, scale) ? colours[around.indexOf(x, y)] / scale : noisy;
                 }
         }
     return image;

@@ -109,7 +109,7 @@ Partition::Partition(const Crop &crop, std::uint32_t partCount, int smallest)
 std::uint64_t Partition::pixelCountOf(std::uint32_t part) const {
     std::uint64_t count = 0;
     for (const Crop &square : squaresOf(part))
-        count += static_cast<std::uint64_t>(square.width()) * static_cast<std::uint64_t>(square.height());
+        count += square.pixelCount();
     return count;
 }
 
@@ -117,12 +117,9 @@ namespace {
 
 /// Calls visit(index of the first pixel, number of pixels) for each row of the film in a square, in order.
 template <class Visit> void visitRows(const Film &film, std::span<const Crop> squares, const Visit &visit) {
-    const auto width = static_cast<std::size_t>(film.crop.width());
     for (const Crop &square : squares)
         for (int y = square.y0; y < square.y1; ++y)
-            visit(static_cast<std::size_t>(y - film.crop.y0) * width +
-                      static_cast<std::size_t>(square.x0 - film.crop.x0),
-                  static_cast<std::size_t>(square.width()));
+            visit(film.crop.indexOf(square.x0, y), static_cast<std::size_t>(square.width()));
 }
 
 } // namespace
@@ -130,8 +127,8 @@ template <class Visit> void visitRows(const Film &film, std::span<const Crop> sq
 double shareOutside(const Crop &crop, std::span<const Crop> squares) {
     double own = 0.0;
     for (const Crop &square : squares)
-        own += static_cast<double>(square.width()) * square.height();
-    return 1.0 - own / (static_cast<double>(crop.width()) * crop.height());
+        own += static_cast<double>(square.pixelCount());
+    return 1.0 - own / static_cast<double>(crop.pixelCount());
 }
 
 void visitRowsIn(const Film &film, std::span<const Crop> squares,

@@ -257,10 +257,7 @@ class Renderer::Attempt {
 
   private:
     [[nodiscard]] BandRange rangeOf(const Crop &band) const {
-        const Crop &crop = result_.film.crop;
-        const auto width = static_cast<std::size_t>(crop.width());
-        return {static_cast<std::size_t>(band.y0 - crop.y0) * width,
-                static_cast<std::size_t>(band.height()) * width};
+        return {result_.film.crop.indexOf(band.x0, band.y0), band.pixelCount()};
     }
 
     [[nodiscard]] Job jobOf(const Crop &band) const {

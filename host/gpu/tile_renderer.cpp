@@ -307,7 +307,7 @@ TileRenderer::Step TileRenderer::dispatch(Program &program, bool isResumed, Run 
     ++totals.dispatchCount;
     if (run.onProgress)
         run.onProgress(static_cast<double>(run.samplesFinished) /
-                       (static_cast<double>(filmPixelCount()) * (job_.sampleEnd - job_.sampleBegin)));
+                       (static_cast<double>(job_.crop.pixelCount()) * (job_.sampleEnd - job_.sampleBegin)));
     totals.isStopped = run.shouldStop && run.shouldStop();
     if (run.onPause && !totals.isStopped)
         run.onPause(totals.rays);
@@ -390,10 +390,6 @@ std::vector<layout::TraceEvent> TileRenderer::readTrace() const {
     std::vector<layout::TraceEvent> events(std::min(traceEventCount_, traceCapacity));
     trace_.download(std::as_writable_bytes(std::span(events)));
     return events;
-}
-
-std::size_t TileRenderer::filmPixelCount() const {
-    return static_cast<std::size_t>(job_.crop.width()) * static_cast<std::size_t>(job_.crop.height());
 }
 
 TileRenderer::Step TileRenderer::runOnce(Program &program) {

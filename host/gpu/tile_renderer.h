@@ -120,7 +120,6 @@ class TileRenderer {
     /// Dispatches once, and reports it to the caller of run().
     Step dispatch(Program &program, bool isResumed, Run &run);
 
-    [[nodiscard]] std::size_t filmPixelCount() const;
     [[nodiscard]] std::uint32_t slotCount(const Tile &tile) const;
     /// The film, and the positions of its pixels.
     void uploadFilm();

@@ -472,7 +472,7 @@ template <class Reader> void readChannels(const InputFile &file, Reader &reader,
     const Imf::Header &header = reader.header();
     const Imath::Box2i &window = header.dataWindow();
     const auto width = static_cast<std::size_t>(picture.crop.width());
-    const std::size_t size = width * static_cast<std::size_t>(picture.crop.height());
+    const std::size_t size = picture.crop.pixelCount();
     if (!reader.isComplete())
         throw file.bad("some of its rows are missing");
     std::uint64_t channelCount = 0;

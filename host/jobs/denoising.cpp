@@ -25,10 +25,6 @@ bool hasSamples(const Film &film) {
     return std::ranges::all_of(film.pixels, [](const auto &pixel) { return pixel.sampleCount > 0; });
 }
 
-std::uint64_t pixelCountOf(const Crop &crop) {
-    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
-}
-
 [[noreturn]] void refuseWithout(const std::string &channel, std::string_view numbers,
                                 const std::filesystem::path &path) {
     throw Error(
@@ -147,7 +143,7 @@ std::optional<Image> denoised(Backend &backend, const Film &film, const std::vec
 std::uint64_t denoiserBytes(const Crop &crop) {
     constexpr std::uint64_t tileSide = denoiserTileSide + 2 * layout::denoiserMargin;
     constexpr std::uint64_t bytesInTile = 556; // of the denoiser, for each pixel
-    const std::uint64_t pixels = pixelCountOf(crop);
+    const std::uint64_t pixels = crop.pixelCount();
     return pixels * (sizeof(layout::NoisyPixel) + sizeof(glm::vec3)) +
            std::min(pixels, tileSide * tileSide) * bytesInTile;
 }
@@ -155,7 +151,7 @@ std::uint64_t denoiserBytes(const Crop &crop) {
 std::uint64_t denoisingBytes(const RenderSettings &settings, const Crop &crop, unsigned copies) {
     const std::uint64_t bytesEach = (keepsFirst(settings) ? sizeof(FirstSamples) : 0) +
                                     (isAdaptive(settings) ? sizeof(std::uint32_t) : 0);
-    return pixelCountOf(crop) * bytesEach * copies + (isToBeDenoised(settings) ? denoiserBytes(crop) : 0);
+    return crop.pixelCount() * bytesEach * copies + (isToBeDenoised(settings) ? denoiserBytes(crop) : 0);
 }
 
 } // namespace hyalite::core

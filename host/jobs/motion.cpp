@@ -82,11 +82,10 @@ std::optional<glm::dvec3> FrameSurfaces::pointOf(std::uint32_t primitive, double
 
 std::vector<glm::vec4> motionVectors(const PreparedScene &scene, const NeighbourFrames &neighbours) {
     const Crop &crop = scene.crop;
-    const auto width = static_cast<std::size_t>(crop.width());
-    std::vector<glm::vec4> vectors(width * static_cast<std::size_t>(crop.height()), glm::vec4(0.0f));
+    std::vector<glm::vec4> vectors(crop.pixelCount(), glm::vec4(0.0f));
     const Camera &camera = scene.loaded.scene.camera;
     reference::visitFirstHits(scene.packed, crop, [&](int y, std::span<const reference::FirstHit> hits) {
-        glm::vec4 *row = &vectors[static_cast<std::size_t>(y - crop.y0) * width];
+        glm::vec4 *row = &vectors[crop.indexOf(crop.x0, y)];
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (hits[i].primitive == layout::noPrimitive)
                 continue;

@@ -98,9 +98,7 @@ std::vector<std::pair<Key, CoveredPixels>> sorted(const std::map<Key, CoveredPix
 Coverage measureCoverage(const PreparedScene &prepared) {
     Objects objects(prepared);
     const Crop &crop = prepared.crop;
-    Coverage coverage{.crop = crop,
-                      .pixelCount = static_cast<std::uint64_t>(crop.width()) *
-                                    static_cast<std::uint64_t>(crop.height())};
+    Coverage coverage{.crop = crop, .pixelCount = crop.pixelCount()};
     std::map<std::size_t, CoveredPixels> byObject;
     std::map<std::uint32_t, CoveredPixels> byMaterial;
     reference::visitFirstHits(prepared.packed, crop, [&](int y, std::span<const reference::FirstHit> hits) {

@@ -196,7 +196,7 @@ Outcome byRanks(const WorkMap &work, const Options &options, std::uint32_t nodes
             end = std::max(end, now);
             continue;
         }
-        const double pixels = static_cast<double>(tile->width()) * tile->height();
+        const auto pixels = static_cast<double>(tile->pixelCount());
         const double message =
             2.0 * pixels * sizeof(layout::FilmPixel) / options.networkBytesPerSecond; // there, back
         networkFree = std::max(networkFree, now) + message;

@@ -9,19 +9,13 @@
 namespace hyalite::core {
 namespace {
 
-std::uint64_t areaOf(const Crop &crop) {
-    return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
-}
-
 /// How often each pixel of the film is in one of the tiles.
 std::vector<int> coverage(const Film &film, const std::vector<Crop> &tiles) {
     std::vector<int> counts(film.pixels.size());
     for (const Crop &tile : tiles)
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
-                ++counts[static_cast<std::size_t>(y - film.crop.y0) *
-                             static_cast<std::size_t>(film.crop.width()) +
-                         static_cast<std::size_t>(x - film.crop.x0)];
+                ++counts[film.crop.indexOf(x, y)];
     return counts;
 }
 
@@ -39,8 +33,8 @@ TEST(TileQueue, GivesEachPixelOnce) {
             const std::optional<Crop> tile = queue.take(most);
             if (!tile)
                 break;
-            EXPECT_LE(areaOf(*tile), std::max<std::uint64_t>(most, 64));
-            EXPECT_GT(areaOf(*tile), 0u);
+            EXPECT_LE(tile->pixelCount(), std::max<std::uint64_t>(most, 64));
+            EXPECT_GT(tile->pixelCount(), 0u);
             tiles.push_back(*tile);
         }
         EXPECT_EQ(queue.pixelCount(), 0u);

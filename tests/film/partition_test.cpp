@@ -15,9 +15,7 @@ std::vector<int> coverOf(const Crop &crop, const Partition &partition) {
         for (const Crop &square : partition.squaresOf(part))
             for (int y = square.y0; y < square.y1; ++y)
                 for (int x = square.x0; x < square.x1; ++x)
-                    ++cover.at(static_cast<std::size_t>(y - crop.y0) *
-                                   static_cast<std::size_t>(crop.width()) +
-                               static_cast<std::size_t>(x - crop.x0));
+                    ++cover.at(crop.indexOf(x, y));
     return cover;
 }
 

@@ -11,13 +11,13 @@ namespace hyalite::core::fuzz {
 namespace {
 
 // A picture takes memory, and may, where its parts are small.
-constexpr std::int64_t maxPixels = std::int64_t{1} << 20;
+constexpr std::size_t maxPixels = std::size_t{1} << 20;
 
 bool isSmall(const std::filesystem::path &file) {
     bool isSmall = false;
     const auto refused = refusalOf([&] {
         const Crop crop = readCheckpointFile(file, nullptr).crop;
-        isSmall = std::int64_t{crop.width()} * crop.height() <= maxPixels;
+        isSmall = crop.pixelCount() <= maxPixels;
     });
     return refused || isSmall;
 }
@@ -45,9 +45,7 @@ void read(const TemporaryFolder &folder, std::string_view content) {
     for (const auto &[maker, count] : merger.makers())
         requirePlain(maker);
     const Film &film = merger.film();
-    require(film.pixels.size() ==
-                static_cast<std::size_t>(film.crop.width()) * static_cast<std::size_t>(film.crop.height()),
-            "the picture has another size than its crop");
+    require(film.pixels.size() == film.crop.pixelCount(), "the picture has another size than its crop");
     require(merger.layers().size() == merger.origin().layers.size(), "layers are lost");
 }
 
