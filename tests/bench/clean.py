@@ -68,9 +68,10 @@ def main():
     print("| scene | FLIP | noisy | denoised | share |\n|---|---|---|---|---|")
     for scene in arguments.scenes:
         truth = reference(scene, arguments, size)
+        loaded = hyalite.Scene(scene)  # once: given its name, each render would read it, and build its tree
         most = arguments.reference_spp // 4
         noisy, clean = (
-            ladder(renderer, scene, truth, min(wanted), most, denoise=denoise, **size) for denoise in (False, True)
+            ladder(renderer, loaded, truth, min(wanted), most, denoise=denoise, **size) for denoise in (False, True)
         )
         for flip in wanted:
             raw, less = reached(noisy, flip), reached(clean, flip)

@@ -2,10 +2,11 @@
 
     blender -b --python cycles_scene.py -- SCENE.json UNIT OUT.pfm WIDTH HEIGHT SPP SEED THRESHOLD
 
-Knows what the two scenes of cycles.py have: a camera, an environment or darkness, meshes of OBJ files, which may be
-moved, and materials that are diffuse, emit, or are conductors, all of which are white here. UNIT is that of the scene
-in metres: Cycles is less exact on rooms of hundreds of metres. THRESHOLD is the noise at which Cycles takes no more samples
-of a pixel; 0: each has SPP. What else decides speed is Blender's default.
+Knows what the scenes of cycles.py have: a camera, an environment or darkness, meshes of OBJ files, which may be moved, and
+of glTF files, and materials that are diffuse, emit, or are conductors, all of which are white here. A mesh without a
+material keeps those of its file, as Blender reads them. UNIT is that of the scene in metres: Cycles is less exact on rooms
+of hundreds of metres. THRESHOLD is the noise at which Cycles takes no more samples of a pixel; 0: each has SPP. What else
+decides speed is Blender's default.
 """
 import json
 import math
@@ -50,12 +51,47 @@ def make_material(look):
 
 
 def add_mesh(path, place, unit, material):
-    """The importer turns a mesh by itself."""
+    """The importers turn a mesh by themselves."""
+    if not path.endswith(".obj"):
+        numpy.bool = bool  # which Blender 3.4 reads, and Debian's NumPy has no more
+        bpy.ops.import_scene.gltf(filepath=path)
+        return
     bpy.ops.wm.obj_import(filepath=path)
-    placed = bpy.context.object
-    placed.location, placed.scale = unit * turned(place), [unit] * 3
-    placed.data.materials.clear()
-    placed.data.materials.append(material)
+    for placed in bpy.context.selected_objects:
+        placed.location, placed.scale = unit * turned(place), [unit] * 3
+        if material:
+            placed.data.materials.clear()
+            placed.data.materials.append(material)
+    if not material:
+        mend_materials(os.path.splitext(path)[0] + ".mtl")
+
+
+def mend_materials(path):
+    """What the importer leaves out of MTL, of version 3.4: normal maps, factors of emission, and that roughness is no
+    colour. Materials with a roughness reflect as glass does; the others are diffuse."""
+    node = None
+    with open(path) as file:
+        for word, *words in (line.split() for line in file if line.strip()):
+            if word == "newmtl":
+                tree = bpy.data.materials[words[0]].node_tree
+                node = tree.nodes["Principled BSDF"]
+                node.inputs["Roughness"].default_value = 0  # of the diffuse part
+            elif word in ("Pr", "map_Pr"):
+                node.inputs["Specular"].default_value = 0.5
+                if word == "Pr":
+                    node.inputs["Roughness"].default_value = float(words[0])
+                else:
+                    node.inputs["Roughness"].links[0].from_node.image.colorspace_settings.name = "Non-Color"
+            elif word == "Ke":
+                node.inputs["Emission Strength"].default_value = float(words[0])
+            elif word == "norm":
+                colours, normals = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeNormalMap")
+                colours.image = bpy.data.images.load(os.path.join(os.path.dirname(path), words[-1]))
+                colours.image.colorspace_settings.name = "Non-Color"
+                for link in node.inputs["Base Color"].links[0].from_node.inputs["Vector"].links:
+                    tree.links.new(link.from_socket, colours.inputs["Vector"])
+                tree.links.new(colours.outputs["Color"], normals.inputs["Color"])
+                tree.links.new(normals.outputs["Normal"], node.inputs["Normal"])
 
 
 def set_camera(scene, view, unit):
@@ -64,21 +100,42 @@ def set_camera(scene, view, unit):
     camera.angle = math.radians(view["horizontalFov"])
     placed = bpy.data.objects.new("camera", camera)
     placed.location = unit * turned(view["position"])
-    placed.rotation_euler = turned(view["direction"]).to_track_quat("-Z", "Y").to_euler()
+    direction = view.get("direction") or [to - at for to, at in zip(view["target"], view["position"])]
+    placed.rotation_euler = turned(direction).to_track_quat("-Z", "Y").to_euler()
     scene.collection.objects.link(placed)
     scene.camera = placed
 
 
-def set_world(scene, path):
-    """An environment must look the same from all sides: Blender counts longitudes from elsewhere."""
+def load_image(path):
+    """Blender does not read PFM."""
+    if not path.endswith(".pfm"):
+        return bpy.data.images.load(path)
+    with open(path, "rb") as file:
+        _, size, _, values = file.read().split(b"\n", 3)
+    width, height = map(int, size.split())
+    pixels = numpy.ones((height, width, 4), numpy.float32)
+    pixels[..., :3] = numpy.frombuffer(values, "<f4").reshape(height, width, 3)
+    image = bpy.data.images.new("image", width, height, float_buffer=True)
+    image.pixels.foreach_set(pixels.ravel())
+    return image
+
+
+def set_world(scene, folder, environment):
     scene.world = bpy.data.worlds.new("world")
     scene.world.use_nodes = True
     tree = scene.world.node_tree
-    tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 0, 1)
-    if path:
+    background = tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0, 0, 0, 1)
+    if environment:
         image = tree.nodes.new("ShaderNodeTexEnvironment")
-        image.image = bpy.data.images.load(path)
-        tree.links.new(image.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+        image.image = load_image(os.path.join(folder, environment["file"]))
+        tree.links.new(image.outputs["Color"], background.inputs["Color"])
+        background.inputs["Strength"].default_value = environment.get("scale", 1)
+        # The middle of an image is -z in Hyalite, which is +y here, and +x for Blender.
+        mapping = tree.nodes.new("ShaderNodeMapping")
+        mapping.inputs["Rotation"].default_value[2] = math.radians(-90 - environment.get("rotateDegrees", 0))
+        tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"], mapping.inputs["Vector"])
+        tree.links.new(mapping.outputs["Vector"], image.inputs["Vector"])
         # The map that aims at bright parts, as fine as the image. Left to Cycles it is finer: 2 s more to start, and
         # twice the time a sample, for no less noise.
         scene.world.cycles.sampling_method = "MANUAL"
@@ -95,7 +152,7 @@ def set_cycles(scene, depth, spp, seed, threshold):
     cycles.use_denoising = False
     cycles.use_adaptive_sampling = threshold > 0
     cycles.adaptive_threshold = threshold
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = depth - 2
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = depth - 2
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
     cycles.pixel_filter_type = "BOX"  # one pixel wide
 
@@ -119,11 +176,12 @@ def main():
         document = json.load(file)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    looks = {name: make_material(look) for name, look in document["materials"].items()}
+    looks = {name: make_material(look) for name, look in document.get("materials", {}).items()}
     for mesh in document["meshes"]:
-        add_mesh(os.path.join(folder, mesh["file"]), mesh.get("translate", [0, 0, 0]), unit, looks[mesh["material"]])
+        add_mesh(os.path.join(folder, mesh["file"]), mesh.get("translate", [0, 0, 0]), unit,
+                 looks.get(mesh.get("material")))
     set_camera(scene, document["camera"], unit)
-    set_world(scene, os.path.join(folder, document["environment"]["file"]) if "environment" in document else None)
+    set_world(scene, folder, document.get("environment"))
     set_cycles(scene, document["settings"]["maxDepth"], spp, seed, float(threshold))
     render = scene.render
     render.resolution_x, render.resolution_y = width, height
