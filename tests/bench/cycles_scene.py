@@ -69,7 +69,6 @@ def add_mesh(path, place, unit, material):
 def mend_materials(path):
     """What the importer leaves out of MTL, of version 3.4: normal maps, factors of emission, and that roughness is no
     colour. Materials with a roughness reflect as glass does; the others are diffuse."""
-    node = None
     with open(path) as file:
         for word, *words in (line.split() for line in file if line.strip()):
             if word == "newmtl":
