@@ -182,9 +182,9 @@ def match(scene, cycles, hyalite, spp):
     print("| %s | %.4f | %.4f to %.4f |" % (scene.name, share, shares.min(), shares.max()), flush=True)
     differences = abs(share - 1), abs(shares - 1).max()
     if any(difference > may for difference, may in zip(differences, scene.may_differ)):
+        (mean, region), (mean_may, region_may) = differences, scene.may_differ
         fail("the pictures of %s do not match: means differ by %.1f %%, which may be %g %%, and those of a region by "
-             "%.1f %%, which may be %g %%" % (scene.name, *(100 * number for pair in zip(differences, scene.may_differ)
-                                                            for number in pair)))
+             "%.1f %%, which may be %g %%" % (scene.name, 100 * mean, 100 * mean_may, 100 * region, 100 * region_may))
 
 
 def race(title, scene, needed, turns):
@@ -261,8 +261,9 @@ def main():
     twin = program("Hyalite, CPU twin", "cpu", run_on("cpu"))
     adaptive = program("Cycles, adaptive", "adaptive", run_blender(True), cycles)
     denoised = program("Hyalite, lavapipe, denoised", "denoised", run_on("llvmpipe", "--denoise"), lavapipe)
-    models = [os.path.abspath(name) for name in arguments.scenes if name.endswith((".gltf", ".glb"))]
-    allowed = [word for model in models for word in ("--allow-path", os.path.dirname(model))]
+    endings = (".gltf", ".glb")
+    allowed = [word for name in arguments.scenes if name.endswith(endings)
+               for word in ("--allow-path", os.path.dirname(os.path.abspath(name)))]
     still_life = os.path.join(os.path.dirname(hyalite), "..", "share", "hyalite", "scenes", "still-life.json")
 
     def scene_of(name):
@@ -278,7 +279,7 @@ def main():
             return scene(write_metals(folder), 1, 320, 200, SAME)
         if name == "still-life":
             return scene(still_life, 1, 240, 160, ALIKE)
-        if os.path.abspath(name) in models:
+        if name.endswith(endings):
             return scene(write_model(hyalite, folder, os.path.abspath(name)), 1, 320, 320, ALIKE)
         fail("SCENE is cornell, metals, still-life, or a glTF file")
 
